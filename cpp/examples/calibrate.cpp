@@ -2,11 +2,11 @@
 //
 // The material point is 1-D plasticity with Armstrong and Frederick's kinematic hardening (CEGB
 // report RD/B/N731, 1966): |stress - X| <= yield stress, dX = C dep - gamma X |dep|. While flow
-// keeps its direction the back stress X has a closed form in the plastic strain, so a step of
-// strain is integrated exactly, by Newton's method on one convex equation. The four constants are
-// those that minimise the area between the loops, found by Nelder and Mead's simplex (Computer
-// Journal 7, 1965) over their logarithms, which keeps them positive; it is started anew from where
-// it ended until that gains nothing. The file is strain [-], stress [MPa], a point a line.
+// keeps its direction, the back stress X has a closed form in the plastic strain. So a step of
+// strain is integrated exactly, by Newton's method on one convex equation. The four constants
+// minimise the area between the loops. Nelder and Mead's simplex (Computer Journal 7, 1965)
+// searches for their logarithms, which keeps the constants positive. It restarts from its result
+// until a restart gains nothing. The file has strain [-] and stress [MPa], one point a line.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
-// Eigen matrices of every layout as curves, none of them copied. CMakeLists.txt compiles this file
-// with -march=native, though the library is not: Eigen's packets and alignment here are others
-// than those inside the library, and the two never meet.
+// Passes Eigen matrices of every layout as curves, without a copy. CMakeLists.txt compiles this
+// file with -march=native, though the library is not. Eigen's packets and alignment here differ
+// from those inside the library, and the two never meet.
 #include <Eigen/Core>
 #include <cstdio>
 #include <curvewise/curvewise.hpp>
@@ -23,7 +23,7 @@ Eigen::MatrixX2d loop(Eigen::Index n, double height) {
     return points;
 }
 
-// A function of one's own takes Eigen::Ref as usual.
+// Your own functions take Eigen::Ref as usual.
 double distance(const Eigen::Ref<const Eigen::MatrixX2d>& P, const RowMajor& Q) {
     return curvewise::dtw(curve_view(P), curve_view(Q));
 }
@@ -35,7 +35,8 @@ int main() {
     const RowMajor Q = loop(65, 0.375);
     std::printf("column_and_row_major %.17g\n", distance(P, Q));
 
-    // Strain, temperature and stress of each increment side by side, of which two are wanted.
+    // Strain, temperature and stress of each increment are side by side; the curve uses two of
+    // them.
     Eigen::Matrix<double, 129, 3, Eigen::RowMajor> history;
     history << P.col(0), Eigen::VectorXd::Constant(129, 293.15), P.col(1);
     using Strides = Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>;  // of columns, of rows
@@ -50,7 +51,7 @@ int main() {
     std::printf("reversed %.17g\n",
                 curvewise::area(curve_view(P), curve_view(RowMajor(Q.colwise().reverse()))));
 
-    // What has no memory of its own is evaluated first: here with this file's own packets.
+    // An expression without its own memory is evaluated first: here with this file's own packets.
     const RowMajor scaled = 0.5 * P;
     std::printf("scaled %.17g\n", curvewise::dtw(curve_view(scaled), curve_view(Q)));
     const Eigen::VectorXd stress = P.col(1);

@@ -20,7 +20,7 @@ struct EdgeBlock {
     std::array<double, size> x, y;
     std::size_t count;
 
-    // Writes the arc length at the end of each edge, the first of which begins at lengths[-1].
+    // Writes the arc length at the end of each edge. The first edge begins at lengths[-1].
     void write_lengths(double* lengths) const noexcept {
         std::array<double, size> squares, roots;
         for (std::size_t k = 0; k < count; ++k) squares[k] = x[k] * x[k] + y[k] * y[k];
@@ -54,8 +54,8 @@ std::vector<double> summed_edges(std::ptrdiff_t size, Poller& poller, Write writ
 // Both throw Stopped where the poller says so.
 std::vector<double> arc_lengths(const Polyline& curve, Poller& poller);
 
-// Those of a curve scaled by a box, by the differences of its own coordinates: where it lies far
-// from the box, scaled coordinates have lost the bits in which they differ.
+// Arc lengths of a curve scaled by a box, from differences of the unscaled coordinates. If the
+// curve lies far from the box, scaled coordinates have lost the bits in which they differ.
 std::vector<double> box_scaled_arc_lengths(const CurveView& curve, const Box& box, Poller& poller);
 
 // Throws std::invalid_argument for a curve whose points are all equal.
@@ -91,7 +91,7 @@ class ArcPosition {
         while (segment_ + 2 < t.size() && t[segment_ + 1] <= at_) ++segment_;
     }
     std::size_t segment() const noexcept { return segment_; }
-    // Of the segment: 0 at its start, 1 at its end and where it has no length.
+    // Of the segment: 0 at its start, 1 at its end and if its length is zero.
     double fraction() const noexcept {
         const double start = (*arc_lengths_)[segment_];
         const double length = (*arc_lengths_)[segment_ + 1] - start;

@@ -1,6 +1,5 @@
-// The smallest axis-parallel box around a curve, and scaling by it: the curve itself comes to lie
-// in [0, 1] in every coordinate. Each coordinate has a range of its own: x may be as large as y is
-// small.
+// The smallest axis-parallel box around a curve, and scaling by it: the curve then lies in [0, 1]
+// in every coordinate. Each coordinate has its own range: x may be very large and y very small.
 #pragma once
 
 #include <cmath>
@@ -33,7 +32,7 @@ class BoxSide {
    private:
     RangeScale range_;
     double low_;
-    double extent_ = 1.0;  // 1 where the curve has none: there nothing is scaled
+    double extent_ = 1.0;  // 1 if the curve has zero extent: nothing is scaled
     bool has_extent_ = false;
 };
 

@@ -1,7 +1,7 @@
-// What every measure requires of its curves, checked before any work, in one order and with one
-// wording, for one pair as for a thousand curves: the coordinates of all curves, then their
-// numbers of points, then every number. std::invalid_argument says what is wrong, where, and what
-// is needed. One pass over the points.
+// The requirements of every measure on its curves. They are checked before any work, in one order
+// and with one wording, for one pair and for a thousand curves: the coordinates of all curves, then
+// their numbers of points, then every number. std::invalid_argument states the error, its place,
+// and the valid values. One pass over the points.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
-// Curves in doubles that are not the caller's: copies, row by row, for what outlives these, and of
-// curves of floats for as long as they are computed with. O(n) time.
+// Curves in doubles that do not belong to the caller: copies, row by row. They are made if they
+// must outlive the caller's curves, and for curves of floats for the time of a computation. O(n)
+// time.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@
 
 namespace curvewise::curves {
 
-// A curve with points of its own. Flat where the caller's is, for messages.
+// A curve with a copy of its points. Flat if the caller's curve is, for messages.
 class OwnedCurve {
    public:
     // Throws Stopped where the poller says so.
@@ -40,8 +41,8 @@ class CurveInDoubles {
     std::optional<OwnedCurve> copy_;
 };
 
-// Checks a curve of a list, which may be of floats: what comes back then refers to these, and
-// LoadedCurve makes of it what is computed with.
+// Checks a curve of a list, which may have floats. The result then refers to the floats, and
+// LoadedCurve converts it for computations.
 CheckedCurve checked_listed(const CurveView& curve, std::string name, runtime::Poller& poller,
                             bool on_sphere);
 

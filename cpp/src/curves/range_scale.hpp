@@ -5,16 +5,16 @@
 
 namespace curvewise::curves {
 
-// The exponent k of the power of two by which both curves are divided before anything is squared
-// (0: not at all), and its undoing. Exact, except for values that leave the range of a double.
+// The exponent k of the power of two that divides both curves before anything is squared (0: not at
+// all), and its inverse. Exact, except for values that leave the range of a double.
 class RangeScale {
    public:
     explicit RangeScale(double largest_magnitude) noexcept;
     // To where `magnitude`, if not 0, comes to lie between 1/2 and 1, whatever it is.
     static RangeScale to_unity(double magnitude) noexcept;
-    // This scale, except that a constant among results of that degree is not enlarged beyond
-    // 2^1000: curves that are so small beside a constant then keep fewer bits, and sums stay
-    // finite.
+    // This scale, limited so that a constant among results of that degree is not enlarged beyond
+    // 2^1000. Curves that are very small compared with a constant then keep fewer bits, and sums
+    // stay finite.
     RangeScale beside(double constant, int degree) const noexcept;
     // This scale, except that another coordinate comes to at most 2^500.
     RangeScale with_coordinate(double coordinate) const noexcept;

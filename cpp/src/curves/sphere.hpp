@@ -1,11 +1,13 @@
-// Points of the sphere by their longitude and latitude, and along it. In three coordinates, on the
-// sphere of diameter 1 about the origin, the square of their distance is the square of half the
-// chord of the unit sphere, and grows with the arc: boxes, bounds and pruning are those of space.
+// Points of the sphere by their longitude and latitude, and distances along it. In three
+// coordinates, the points are on the sphere of diameter 1 about the origin. The square of their
+// distance is then the square of half the chord of the unit sphere, and grows with the arc. So
+// boxes, bounds and pruning work as in space.
 //
-// Sines and cosines of degrees are by polynomials of its own (interpolation in the nodes of
-// Chebyshev, errors below 2e-17), on what is left within 45 degrees of a multiple of 90, exactly:
-// the same bits on every machine and in numpy, 0 and 1 at the poles, and the same point for -180
-// and 180 degrees. A coordinate is wrong by 1e-16 at most, a nanometre on the Earth.
+// Sines and cosines of degrees are polynomials (interpolation in the Chebyshev nodes, errors below
+// 2e-17). Their argument is the exact remainder within 45 degrees of a multiple of 90. Results are
+// bitwise identical on every machine and in numpy. They are 0 and 1 at the poles, and the same
+// point for -180 and 180 degrees. The error of a coordinate is at most 1e-16, a nanometre on the
+// Earth.
 #pragma once
 
 #include <array>
@@ -28,8 +30,8 @@ struct SlopeOnSphere {
 };
 SlopeOnSphere slope_on_sphere(const double* p, const double* q) noexcept;
 
-// Throws std::invalid_argument for a point that is none: latitudes from -90 to 90, longitudes from
-// -360 to 360.
+// Throws std::invalid_argument for an invalid point: latitudes must be from -90 to 90, longitudes
+// from -360 to 360.
 void check_on_sphere(const CurveView& curve, const std::string& name);
 
 }  // namespace curvewise::curves

@@ -188,7 +188,7 @@ int guarded(curvewise_error* error, Function function) noexcept {
     } catch (const std::exception& failure) {
         report(error, failure.what());
         return CURVEWISE_FAILED;
-    } catch (...) {  // the library throws none: so that nothing ever passes through C
+    } catch (...) {  // the library throws no others; nothing may pass through C
         report(error, "an exception of unknown type");
         return CURVEWISE_FAILED;
     }

@@ -28,7 +28,7 @@ class Scaled {
     std::vector<double> values_;
 };
 
-// Where a measure has no other conditions.
+// For measures without further conditions.
 template <class Options>
 Condition condition(Preset preset, Options options) {
     return {options, preset == Preset::scaled};
@@ -46,8 +46,8 @@ Condition condition(Preset preset, AreaOptions options) {
     if (preset == Preset::paper) options.spacing = Spacing::x;
     if (preset == Preset::scaled) {
         options.spacing = Spacing::matched;
-        // For whoever chooses another spacing: "rearrange" jumps where curves cross, which an
-        // identification takes for minima.
+        // For calls that choose another spacing: "rearrange" jumps where curves cross, and an
+        // identification takes these jumps for minima.
         options.crossing = Crossing::split;
     }
     return {options, preset == Preset::scaled};

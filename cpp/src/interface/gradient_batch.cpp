@@ -23,7 +23,7 @@ void values_and_gradients(const DifferentiableMeasure& measure, const std::vecto
                                     std::to_string(out.size()) +
                                     " places for derivatives; give as many of each");
     }
-    // The error of one pair among many says of which.
+    // The error of one pair among many names the pair.
     const auto compute = [&](std::size_t k, Control* watch) {
         try {
             std::visit(
@@ -44,7 +44,7 @@ void values_and_gradients(const DifferentiableMeasure& measure, const std::vecto
     std::mutex mutex;
     std::exception_ptr failure;
     const auto work = [&](std::ptrdiff_t /*w*/, Poller& own) {
-        // Another Control watches a pair: its steps are none of those that are counted here.
+        // Another Control watches a pair; its steps are not counted here.
         Control pair([&](std::int64_t, std::int64_t) { return !own.poll(); },
                      std::chrono::milliseconds(20));
         try {

@@ -1,4 +1,4 @@
-// The Chaboche-Voce material: its parameters, what they may be, and the walk along a path.
+// The Chaboche-Voce material: its parameters, their valid values, and the walk along a path.
 #include "materials/chaboche_voce.hpp"
 
 #include <algorithm>

@@ -1,14 +1,14 @@
-// The Chaboche-Voce point. While plastic flow keeps its direction n, with p the plastic strain
-// since it began, n s = yield + R + sum of n X_k, and each of the terms is closed in p: from its
-// start it rises by amplitude (1 - exp(-rate p)) / rate. The strain behind the yield point is p
-// plus what the stress has risen by, over Young's modulus:
+// The Chaboche-Voce point. Plastic flow keeps its direction n; p is the plastic strain since it
+// began. Then n s = yield + R + sum of n X_k, and each of the terms is closed in p: from its start
+// it rises by amplitude (1 - exp(-rate p)) / rate. The strain behind the yield point is p plus the
+// rise of the stress over Young's modulus:
 //
 //     strain(p) = p + integral of (n s)'(p) / E(p)
 //
-// A step is the root of strain(p) = what is left of the step. Halley's iterates, held between
-// bounds that close in, end to rounding; the slopes are those of the implicit function. With a
-// constant modulus there is no integral to compute. O(back stresses) a step: some two exponentials
-// a back stress, which the slopes share.
+// A step solves strain(p) = the rest of the step. Halley's iterates are held between bounds that
+// close in, and end to rounding. The derivatives are those of the implicit function. With a
+// constant modulus, there is no integral to compute. O(back stresses) a step: about two
+// exponentials a back stress, which the derivatives share.
 #pragma once
 
 #include <algorithm>
@@ -101,9 +101,9 @@ inline double plastic_strain(const Flow<double>& flow, double target, double fal
         (excess > 0.0 ? high : low) = p;
         const double next =
             p - newton / std::max(0.5, 1.0 - 0.5 * newton * found.bend / found.slope);
-        // The error of the next iterate is some multiple of the cube of this step. Asked before
-        // the bounds are, one of which the root itself may be. Beside an extremum Halley's step is
-        // short far from the root, and Newton's is not.
+        // The error of the next iterate is some multiple of the cube of this step. This test comes
+        // before the test of the bounds, because the root itself may be one of them. Near an
+        // extremum, Halley's step is short far from the root, and Newton's is not.
         const double step = next - p;
         const bool is_near =
             found.slope > 0.0 && std::abs(step) <= 1e-5 * p && std::abs(newton) <= 2e-5 * p;
@@ -158,8 +158,8 @@ class ChabocheVocePoint {
         const double fall = std::max(0.0, value_of(state_[0]) - value_of(constants_[1]));
         const double p = plastic_strain(plain_, value_of(strain), fall, falls_);
 
-        // The last step to the root, of which the derivatives are those of the implicit function;
-        // what it moves p by is so little that the rest is linear in it.
+        // The last step to the root, whose derivatives are those of the implicit function. The step
+        // moves p so little that the rest is linear in it.
         Number risen(0.0);
         double steepness = 0.0;
         for (std::size_t k = 0; k < state_.size(); ++k) {

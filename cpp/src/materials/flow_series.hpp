@@ -1,14 +1,15 @@
-// The flow of the Yoshida-Uemori point as a Taylor series. With the size a of the bounding surface
-// over the yield surface, the distance a u |u| of their centres, and the time T in which the
-// plastic strain rises by |u| / C, all in units of C:
+// The flow of the Yoshida-Uemori point as a Taylor series. a is the size of the bounding surface
+// over the yield surface, and a u |u| the distance of their centres. In the time T, the plastic
+// strain rises by |u| / C. All are in units of C:
 //
 //     du = ((1 - u) - growth u |u|) / 2 dT         growth: a' / a, which decays by
 //     dgrowth = growth (bend - growth) |u| dT      bend: a'' / a'
 //
-// and for a modulus that decays with the strain, what the stress rises by over it. All are products
-// of what is known, so that a term follows from those before it (Jorba & Zou, "A software package
-// for the numerical integration of ODEs by means of high-order Taylor methods", Experimental
-// Mathematics 14, 2005): for N terms O(N^2) multiplications and no exponential. u keeps its sign.
+// For a modulus that decays with the strain, there is also the rise of the stress over the modulus.
+// All are products of known series, so each term follows from those before it (Jorba & Zou, "A
+// software package for the numerical integration of ODEs by means of high-order Taylor methods",
+// Experimental Mathematics 14, 2005). N terms take O(N^2) multiplications and no exponential. u
+// keeps its sign.
 #pragma once
 
 #include <algorithm>
@@ -83,18 +84,18 @@ class FlowSeries {
                    ? 1.0
                    : 0.9 * std::pow(tolerance / last, 1.0 / static_cast<double>(order_ - 1));
     }
-    // Adds terms until the last two of every slope are below a tolerance, of the largest. Where u
-    // stands still hardly a term of its own is left, and those of a slope, which has yet to die
-    // away, are as many as ever: cut short they grow with each leg.
+    // Adds terms until the last two of every derivative are below a tolerance, relative to the
+    // largest. If u is constant, almost no new terms of u remain. The derivatives still need the
+    // same number of terms until they decay: truncated early, they grow with each leg.
     void extend_slopes_to(double tolerance) {
         while (!(are_small(u_, tolerance) && (!kind_.softens || are_small(rise_, tolerance))) &&
                order_ < most_terms) {
             extend();
         }
     }
-    // At a share of `length`: u; the plastic strain since the start, times C; and where the modulus
-    // decays, what the stress has risen by over a at the start, each bit of it by the compliance
-    // over that at the start.
+    // At a share of `length`: u, and the plastic strain since the start, times C. If the modulus
+    // decays, also the rise of the stress over a at the start; each part of it is weighted by the
+    // compliance relative to that at the start.
     struct Sum {
         Number u, p, rise;
     };
@@ -167,8 +168,8 @@ class FlowSeries {
     Terms size_, left_, compliance_, rise_, relative_, excess_, slope_;
 };
 
-// The numbers that a series is made of where the flow has these. Slopes by the parameters follow
-// from those by the first four of what it begins with, while the modulus is constant.
+// The number type of a series for each number type of the flow. While the modulus is constant,
+// derivatives by the parameters follow from those by the first four initial values.
 template <class Number>
 struct ForSlopes {
     using Few = Number;

@@ -1,6 +1,6 @@
-// What all points of material share: the checks of their strains and parameters, the walk along the
-// path of strain, Young's modulus, and the passes that slopes need: eight directions at a time, as
-// many as two or four vector registers hold.
+// Functions that all material points share: the checks of their strains and parameters, the walk
+// along the path of strain, Young's modulus, and the passes for derivatives. A pass takes eight
+// directions, which fill two or four vector registers.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +26,8 @@ inline std::string text_of(double value) {
     return text.data();
 }
 
-// Thrown where parameters that make sense one by one lead to no stress: what goes wrong, and by
-// which parameter; "" for the one that is farthest from those of a metal.
+// Thrown if parameters that are valid one by one lead to no stress. It has the reason and the
+// parameter that causes it; "" for the one that is farthest from those of a metal.
 struct NoStress {
     std::string what, parameter;
 };
@@ -99,7 +99,7 @@ struct YoungsModulus {
     Number rate{};
 };
 
-// Throws where a strain is no strain: not finite, or beyond 100 (10,000 %).
+// Throws for an invalid strain: not finite, or beyond 100 (10,000 %).
 void check_strains(const double* strain, std::ptrdiff_t n);
 
 // Throws NoStress: parameters beyond all metals, whose products overflow or lose all digits.

@@ -1,7 +1,7 @@
-// The integral from 0 to x of a sum of exp(-rate s), the largest rate of which is known, times a
-// function as smooth: Gauss-Legendre with 16 nodes on panels that double in length, since what was
-// steep at first has died away where they are long. To rounding. Nodes and weights: Abramowitz &
-// Stegun, "Handbook of Mathematical Functions", table 25.4.
+// The integral from 0 to x of a sum of exp(-rate s), times an equally smooth function. The largest
+// rate is known. Gauss-Legendre with 16 nodes on panels that double in length: steep terms have
+// decayed where the panels are long. Accurate to rounding. Nodes and weights: Abramowitz & Stegun,
+// "Handbook of Mathematical Functions", table 25.4.
 #pragma once
 
 #include <algorithm>

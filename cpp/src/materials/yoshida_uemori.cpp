@@ -1,4 +1,4 @@
-// The Yoshida-Uemori material: its parameters, what they may be, and the walk along a path.
+// The Yoshida-Uemori material: its parameters, their valid values, and the walk along a path.
 #include "materials/yoshida_uemori.hpp"
 
 #include <cmath>

@@ -29,7 +29,7 @@ struct Constants {
     Number CB, Y, C, K, RSAT, SB, H, C1{}, C2{};
 };
 
-// What is known of one direction of flow: closed forms of the plastic strain p since it began.
+// The known values of one direction of flow: closed forms of the plastic strain p since it began.
 template <class Number>
 class Branch {
    public:
@@ -78,7 +78,7 @@ class Branch {
         to.R_slope += bend(p) * from.R_slope * by;
         return to;
     }
-    // What the flow goes on with from u and p.
+    // The initial values of the flow from u and p.
     FlowStart<Number> start(const Number& u, const Number& p, const Bound& bound,
                             const Number& unit) const {
         FlowStart<Number> found{};
@@ -173,8 +173,8 @@ double root_of(Excess excess, double guess, double high) {
             low = at;
         }
         const double next = at - found.first / found.second;
-        if (low == high && !is_enclosed) {  // rounding decides on a root at the end, of which
-                                            // nothing would be left
+        // rounding decides about a root at the end, which would leave nothing of the step
+        if (low == high && !is_enclosed) {
             return next - high <= 1e-10 * high ? next : never;
         }
         if (std::abs(next - at) <= 1e-6 * at && (is_enclosed || next <= high)) return next;

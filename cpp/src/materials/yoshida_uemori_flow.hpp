@@ -1,5 +1,5 @@
-// The flow of the Yoshida-Uemori point in one direction, all quantities taken times its sign, with
-// p the plastic strain since it began:
+// The flow of the Yoshida-Uemori point in one direction. All quantities are multiplied by its sign;
+// p is the plastic strain since it began:
 //
 //     stress                          s = Y + t + c
 //     bounding surface's centre       dc = K (SB - c) dp, closed in p
@@ -7,13 +7,15 @@
 //     surface's                       surface, which is closed in p as well
 //     yield surface's centre to c's   dt = C (a - sign(t) sqrt(a |t|)) dp
 //
-// The last has no closed form, and a root in it. With t = a u |u| and the time T in which
-// dp = |u| dT / C, it is smooth where u keeps its sign, and a Taylor series (flow_series.hpp). A
-// leg goes along one series: to u = 0, to where R begins to grow, to the strain wanted, or as far
-// as the terms left out are below rtol. The time of an event is found by Newton's method in double
-// precision; for that time the series gives u and p with their slopes, by the few numbers that the
-// flow begins with, of which those by the parameters follow; and what is left to the event, next to
-// nothing, moves them along the flow. O(1) a leg; a step of a metal takes one or two.
+// The last equation has a root in it and cannot be solved in closed form. With t = a u |u| and the
+// time T in which dp = |u| dT / C, it is smooth while u keeps its sign, and a Taylor series solves
+// it (flow_series.hpp). A leg follows one series: to u = 0, to the start of R's growth, to the
+// required strain, or as far as the omitted terms are below rtol.
+//
+// Newton's method finds the time of an event in double precision. At that time the series gives u
+// and p with their derivatives by the few initial values; the derivatives by the parameters follow
+// from these. The remaining distance to the event is negligible, and moves u and p along the flow.
+// O(1) a leg; a step of a metal takes one or two.
 #pragma once
 
 #include <algorithm>
@@ -58,7 +60,7 @@ class Follower {
 
     void run() {
         constexpr int most_legs = 10000;  // a metal's steps take one or two
-        constexpr int first_steady = 8;   // what is not steady takes eight to die
+        constexpr int first_steady = 8;   // transients take eight legs to decay
         for (int i = 0; i < most_legs && std::isfinite(plain_.state.strain); ++i) {
             if (i >= first_steady) {
                 const auto event = SteadyFlow<Number>(course_, plain_).follow();
@@ -89,12 +91,12 @@ class Follower {
         const double guess = time_to_target(kind.sign);
         double length = 6.0 / (1.0 + start[GROWTH] + std::abs(start[BASE]) + start[LEFT] +
                                start[DECAY] + start[SOFTENING]);  // terms fall
-        // To u = 0 it takes 2 log(1 - u) at most, of which a Pade approximant is a bound.
+        // To u = 0 it takes at most 2 log(1 - u), and a Padé approximant is a bound of this time.
         if (u < 0.0) length = std::min(length, -2.0 * u * (6.0 - u) / (6.0 - 4.0 * u));
         length = std::min(length, 1.2 * guess);
         series_.plain.begin(start, kind, length);
-        // What is left out of hundreds of steps adds up, and what a parameter hardly moves has
-        // slopes with the larger errors.
+        // Truncation errors of hundreds of steps add up, and they are largest in the derivatives by
+        // parameters with little effect.
         const double share = series_.plain.extend_to(1e-3 * c.k.rtol);
         return with_event({kind, length, share, Leg::none}, guess / length);
     }
@@ -175,8 +177,8 @@ class Follower {
         if constexpr (!std::is_same_v<Number, double>) plain_.branch.begin_growth();
         course_.bound = course_.branch.bound(course_.state.p);
     }
-    // Moves the state along the flow by the little that it differs from the event in value, and by
-    // what it does so in slopes.
+    // Moves the state along the flow by its small remaining differences from the event, in value
+    // and in derivatives.
     void settle(Leg::Event event) {
         Course<Number>& c = course_;
         FlowState<Number>& state = c.state;

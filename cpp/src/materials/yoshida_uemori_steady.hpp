@@ -1,12 +1,12 @@
-// The steady flow of the Yoshida-Uemori point at large C. The difference of u from the solution
-// that changes with the plastic strain alone dies as exp(-T / 2). With growth G = a' / (C a) and
-// bend B = a'' / (C a'), both small, that solution is
+// The steady flow of the Yoshida-Uemori point at large C. One solution for u changes with the
+// plastic strain alone. The difference of u from that solution decays as exp(-T / 2). With growth G
+// = a' / (C a) and bend B = a'' / (C a'), both small, the solution is
 //
 //     u = 1 - G (1 - 2 B) + O(G (G + |B|)^2)
 //
-// so that the stress is a closed form of p, and a step of any number of legs is one equation for p.
-// With a modulus that decays the strain has an integral, by parts: p plus the stress over the
-// modulus, at the end less at the begin, plus that of the stress by (-1 / E)'. O(1) a step.
+// So the stress is a closed form of p, and a step of any number of legs is one equation for p. With
+// a modulus that decays, the strain has an integral, by parts: p plus the stress over the modulus,
+// at the end less at the start, plus the integral of the stress by (-1 / E)'. O(1) a step.
 #pragma once
 
 #include <algorithm>
@@ -78,8 +78,8 @@ class SteadyFlow {
         return is_slow(found) &&
                std::abs(c.state.u - found.u()) <= std::max(1e-3 * c.k.rtol, rounding);
     }
-    // Whether it would take more legs than there are, or ones that rounding spoils: the rate of the
-    // stress is the product of C and what is left of 1 - u.
+    // Whether the flow would take more legs than the maximum, or legs that rounding spoils: the
+    // rate of the stress is the product of C and the remainder of 1 - u.
     bool is_far(double left) const {
         const Course<double>& c = plain_;
         const double most_time = 6e4, largest_rate = 1e9;

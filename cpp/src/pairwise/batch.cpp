@@ -13,9 +13,9 @@ using CheckedCurves = std::vector<CheckedCurve>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Lists of more numbers are cut into blocks: what is made of the curves, in doubles, packed, boxed,
-// takes at most some 100 MB at a time. A block's curves are prepared once for each block of the
-// other list, which takes nothing beside its pairs.
+// Longer lists are cut into blocks, so that the prepared curves (in doubles, packed, with boxes)
+// take at most about 100 MB at a time. A block's curves are prepared once for each block of the
+// other list. That takes negligible time compared with its pairs.
 constexpr std::ptrdiff_t numbers_in_a_block = std::ptrdiff_t{1} << 21;
 
 struct Block {

@@ -1,46 +1,46 @@
-// What a measure is to the rest of the library: one class, which checks its options, prepares each
+// A measure, as the rest of the library uses it: one class, which checks its options, prepares each
 // side of a pair, and computes a pair. The call for one pair (evaluate.hpp), cdist, pdist and
 // Prepared (batch_of.hpp), with progress, cutoff, threads and Ctrl-C, are made from it. A measure M
-// has
+// has these members:
 //
 //   explicit M(const MOptions&)          throws std::invalid_argument for options out of range
-//   M::Memory                            what one thread keeps from one pair to the next
-//   M::PreparedP, M::PreparedQ           all that depends on one curve alone; made from a
+//   M::Memory                            data that one thread keeps from one pair to the next
+//   M::PreparedP, M::PreparedQ           all data that depends on one curve alone; made from a
 //                                        CheckedCurve, which they keep as `checked`, and a Poller,
-//                                        which ends that too
-//   M::is_swept                          whether several threads may work on one pair, and the
-//                                        poller hears of the pair's steps while they do
+//                                        which can stop the preparation, too
+//   M::is_swept                          whether several threads may work on one pair, while the
+//                                        poller counts the pair's steps
 //   requirements()                       of every curve
-//   check_sizes(n, m)                    throws where no pair of n and m points has a value
+//   check_sizes(n, m)                    throws if no pair of n and m points has a value
 //   may_be_negative()                    whether some value is below 0
 //   is_zero_to_itself(checked)           whether the value of a curve and itself is known to be 0
-//   check_p(prepared_p, poller)          throws where P serves no Q, as the value would: for
-//                                        batches, which refuse before any work
+//   check_p(prepared_p, poller)          throws the error of the value if P is invalid for every Q:
+//                                        for batches, which check before any work
 //   workers()                            the threads for a single pair
 //   M::steps(n, count, points)           the nominal steps of a curve of n points against `count`
 //                                        curves of `points` points in all
 //   (prepared_p, prepared_q, call)       the value
 //
-// PreparedQ may have, where it holds the points of its curve in a form of its own, so that who
-// keeps it need not keep them beside it,
+// PreparedQ may hold the points of its curve in another form, so that its owner need not keep them,
+// too. Then it has
 //
 //     holds_points()                     whether this one does
-//     look_at_own_points()               makes `checked` look at these
+//     look_at_own_points()               makes `checked` refer to these
 //
-// The measure may have, for searches that look at a bound before they compute a value
-// (targets.hpp),
+// The measure may have bounds, for searches that test a bound before they compute a value
+// (targets.hpp):
 //
-//   M::Bounds                            what is kept of all Qs for that, by keep(prepared_q), and
-//                                        by make_room(others) and then take(others), which does
-//                                        not throw and leaves the others empty
-//   M::Bounds::levels                    how many bounds there are of a pair, from cheap to dear
+//   M::Bounds                            the stored data of all Qs for the bounds, added by
+//                                        keep(prepared_q), or by make_room(others) and then
+//                                        take(others), which does not throw and empties the others
+//   M::Bounds::levels                    the number of bounds of a pair, from cheap to expensive
 //   M::Bounds::Query                     of one P: made from (measure, bounds, prepared_p);
 //     quick(out)                         the first bound of every Q
 //     refined(j, prepared_q, level)      a later one
 //     value(j, prepared_q, call)         the value, as the measure gives it
 //     is_within(j, prepared_q, call)     whether that is at most the call's cutoff
 //
-// and, for what else its functions return (a path, a table), members of its own that take the same
+// For other results of its functions (a path, a table), it has further members that take the same
 // three arguments.
 #pragma once
 

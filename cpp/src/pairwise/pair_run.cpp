@@ -33,8 +33,8 @@ class PairRun {
     }
 
    private:
-    // A pair of at least this many steps a thread is worth sweeping by all threads at once, if
-    // there are too few of them to keep every thread busy to the end.
+    // If there are too few pairs to keep every thread busy to the end, all threads sweep a pair of
+    // at least this number of steps a thread together.
     static constexpr std::int64_t giant_cells_per_worker = std::int64_t{1} << 23;
     static constexpr std::size_t few = 8;  // a thread
 

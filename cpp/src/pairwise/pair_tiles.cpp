@@ -7,8 +7,8 @@
 namespace curvewise::pairwise {
 namespace {
 
-// So many that no thread waits long for another when the tiles run out; a tile of 32 x 32 pairs is
-// large enough for its curves to be used again while they are in the cache.
+// This number keeps threads from waiting long for each other at the end. A tile of 32 x 32 pairs is
+// large enough to reuse its curves while they are in the cache.
 constexpr double tiles_per_worker = 512.0;
 constexpr double max_edge = 32.0;
 constexpr double max_tiles = 2e5;

@@ -1,7 +1,7 @@
-// The pairs of a batch in the order in which threads take them: tiles of neighbours in lists sorted
-// by size, so that a tile's pairs cost about the same and its curves stay in the cache; the most
-// expensive tile first, so that the last ones to finish are cheap. O(k log k) time for k curves,
-// and memory for some 10^5 tiles.
+// The pairs of a batch in the order in which threads take them. Tiles contain neighbours in lists
+// sorted by size, so that a tile's pairs cost about the same and its curves stay in the cache. The
+// most expensive tile comes first, so that the last ones to finish are cheap. O(k log k) time for k
+// curves, and memory for about 10^5 tiles.
 #pragma once
 
 #include <cstddef>

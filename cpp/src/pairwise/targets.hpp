@@ -1,6 +1,6 @@
-// One curve against many that are kept, whatever the measure: what a search for the nearest goes
-// through. Of every pair there is the value, and there may be lower bounds of it, from cheap to
-// dear, none of which is above the value as it is computed.
+// One curve against many stored curves, for any measure: the pairs of a search for the nearest.
+// Every pair has its value, and may have lower bounds of it, from cheap to expensive. No bound is
+// above the computed value.
 #pragma once
 
 #include <cstddef>
@@ -48,7 +48,7 @@ class Targets {
     Targets& operator=(Targets&&) = delete;
     virtual ~Targets() = default;
 
-    // So many will be added.
+    // Prepares for `count` more curves.
     virtual void reserve(std::size_t count) = 0;
     // Keeps a copy of the points. Throws where the curve serves no P.
     virtual void add(const CheckedCurve& Q, Poller& poller) = 0;

@@ -15,7 +15,7 @@
 
 namespace curvewise::pairwise {
 
-// In the place of M::Bounds: no value is below it, that of a negative cost either.
+// Replaces M::Bounds: no value is below this bound, not even the value of a negative cost.
 template <class M>
 class NoBounds {
    public:
@@ -154,7 +154,7 @@ class TargetsOf final : public Targets {
         typename Bounds::Query bounds_;
     };
 
-    // With points that are kept: those that it holds itself, or a copy beside it.
+    // With stored points: points that PreparedQ holds itself, or a separate copy.
     PreparedQ kept(const CheckedCurve& Q, Poller& poller) {
         if constexpr (may_hold_points<PreparedQ>) {
             PreparedQ prepared(Q, poller);

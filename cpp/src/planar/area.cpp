@@ -35,8 +35,8 @@ Quad quad_at(const Curves& curves, std::size_t i) noexcept {
     return {curves.A[i], curves.A[i + 1], curves.B[i + 1], curves.B[i]};
 }
 
-// Of a curve before its refinement, given those by the vertices after it: a cut at a + h (b - a)
-// hands 1 - h of its own to a and h to b.
+// Writes the gradient by a curve before its refinement, given the gradient by the vertices after
+// it. A cut at a + h (b - a) passes 1 - h of its gradient to a and h to b.
 void write_unrefined(const Polyline& by_vertex, const std::vector<planar::Cut>& cuts,
                      const RangeScale& range, int degree, double* gradient) {
     if (gradient == nullptr) return;
@@ -58,9 +58,9 @@ void write_unrefined(const Polyline& by_vertex, const std::vector<planar::Cut>& 
     }
 }
 
-// Of one of the matched curves, given those by its vertices in MatchedCurves, by its points in
-// `range`: what is no vertex of it lies at a fixed share of its length. Adds to `by_slope` what the
-// slopes of the scaling by which lengths are measured get.
+// Returns the gradient by the points in `range` of one of the matched curves, given the gradient by
+// its vertices in MatchedCurves. A place between two vertices of the curve lies at a fixed share of
+// its length. Adds the derivatives by the scaling of lengths to `by_slope`.
 std::vector<Point> unmatched(const Polyline& by_vertex, const planar::PlacesOnCurve& on_curve,
                              const std::array<double, 2>& slopes, const Polyline& points,
                              const RangeScale& range, std::array<double, 2>& by_slope,
@@ -120,7 +120,7 @@ class AreaMeasure : public pairwise::LinearMeasure {
 
     explicit AreaMeasure(const AreaOptions& options) : options_(options) {}
     static curves::Requirements requirements() noexcept { return {AreaOptions::measure, 2, true}; }
-    // A curve that is no function of x has no area to itself either.
+    // A curve that is not a function of x has no area, not even to itself.
     bool is_zero_to_itself(const curves::CheckedCurve& /*checked*/) const noexcept {
         return options_.spacing != Spacing::function;
     }
@@ -228,7 +228,7 @@ class AreaMeasure : public pairwise::LinearMeasure {
         planar::PlacesOnCurves on;
         const planar::MatchedCurves curves =
             planar::match(P.checked.curve, Q.checked.curve, range, call.poller, &on);
-        // Both, since each moves the box by which the lengths of the other are measured.
+        // Both, because each moves the box that scales the lengths of the other.
         ByVertex by(curves.A.size(), true, true);
         double sum = 0.0;
         for_each_piece(curves, call.poller, [&](const auto&, auto first, auto end, double area) {
@@ -295,9 +295,9 @@ class AreaMeasure : public pairwise::LinearMeasure {
         }
     }
 
-    // Calls visit(curves, first, end, area) for one piece of the matched curves after the other:
-    // its quadrilaterals are those from `first` to before `end`, and their areas, with their signs,
-    // make up `area`.
+    // Calls visit(curves, first, end, area) for each piece of the matched curves in order. Its
+    // quadrilaterals are those from `first` to before `end`; `area` is the sum of their signed
+    // areas.
     template <class Visit>
     static void for_each_piece(const planar::MatchedCurves& curves, runtime::Poller& poller,
                                Visit visit) {

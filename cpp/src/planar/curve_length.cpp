@@ -34,7 +34,7 @@ Pair largest_of_all(const CurveView& curve, Poller& poller) {
     Pair largest{std::abs(curve(0, 0)), std::abs(curve(0, 1))};
     const std::ptrdiff_t odd = curve.size() % 2;  // then the rest is pairs of points
     poller.in_runs(curve.size() / 2, 2, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-        auto [x, y] = largest;  // two at a time, of which only one waits for those before
+        auto [x, y] = largest;  // two at a time; only one of them waits for those before
         for (std::ptrdiff_t i = odd + 2 * first; i < odd + 2 * end; i += 2) {
             x = larger(x, larger(std::abs(curve(i, 0)), std::abs(curve(i + 1, 0))));
             y = larger(y, larger(std::abs(curve(i, 1)), std::abs(curve(i + 1, 1))));
@@ -79,8 +79,8 @@ void for_each_place(const std::vector<double>& s, const std::vector<double>& t, 
     }
 }
 
-// One coordinate of both curves, in a range of its own: a quotient has no units, so nothing needs
-// to be scaled back.
+// One coordinate of both curves, in its own range. A quotient has no units, so no value must be
+// scaled back.
 class Coordinate {
    public:
     Coordinate(const CurveView& P, const CurveView& Q, std::ptrdiff_t c, double largest_p,

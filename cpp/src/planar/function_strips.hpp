@@ -28,7 +28,7 @@ class FunctionWalk {
     std::size_t size() const noexcept { return points_.size(); }
     double low() const noexcept { return points_.front().x; }
     double high() const noexcept { return points_.back().x; }
-    // To the segment on which the function goes on from x: beyond all points that lie there.
+    // Moves to the segment on which the function continues from x, beyond all points at x.
     void go_to(double x) noexcept {
         while (segment_ + 2 < points_.size() && points_[segment_ + 1].x <= x) ++segment_;
     }
@@ -46,9 +46,9 @@ class FunctionWalk {
 };
 
 // The strips from one x to the next at which either curve has a point, in the order of x and in
-// `range`; none is without width. A curve with several points at one x jumps there. O(n + m).
-// Throws std::invalid_argument where x turns back, or the curves have no span of x in common;
-// Stopped where the poller says so.
+// `range`. Every strip has a width. A curve with several points at one x jumps there. O(n + m).
+// Throws std::invalid_argument if x turns back, or if the curves do not share a span of x; Stopped
+// if the poller stops the call.
 class FunctionStrips {
    public:
     FunctionStrips(const curves::CheckedCurve& P, const curves::CheckedCurve& Q,

@@ -20,11 +20,11 @@ namespace {
 constexpr double pieces_per_side = 10.0;  // of the box
 constexpr std::size_t samples_per_piece = 5;
 constexpr double places_per_piece = 2.0 * samples_per_piece;
-// Of the table of the warping path: a second or two. Curves that travel further than 280 sides,
-// as those that oscillate do, are matched within a band of so many.
+// Cells of the table of the warping path: a second or two. Curves that travel further than 280
+// sides, for example oscillating ones, are matched within a band of this number of cells.
 constexpr std::ptrdiff_t most_cells = 200'000'000;
 
-// Another Control watches the path: its cells are none of the steps that the poller counts.
+// Another Control watches the path; the poller does not count its cells.
 Cells warping_path(const Side& P, const Side& Q, Poller& poller) {
     poller.poll_in_loop(0);
     DtwOptions options;

@@ -1,19 +1,20 @@
-// Two curves matched by a warping path, and cut into pieces: what Spacing::matched measures.
+// Two curves matched by a warping path, and cut into pieces: the basis of Spacing::matched.
 //
-// A simulation has other increments than the test, and a test has noise. Refinement compares what
-// lies beside each other only where both curves were sampled alike, and arc length only where
-// neither has noise, which is length. Here both are sampled anew, at equal shares of their own arc
-// lengths, and the warping path of dynamic time warping finds which samples belong together.
+// A simulation has other increments than the test, and a test has noise. Refinement compares
+// corresponding points only if both curves were sampled in the same way. Arc length does so only if
+// neither has noise, because noise adds length. Here both curves are resampled at equal shares of
+// their own arc lengths, and the warping path of dynamic time warping finds the corresponding
+// samples.
 //
 // Coordinates are scaled by P's box. The path is dtw's, with the ground distance |dx| + |dy|, on
-// coordinates rounded to 30 bits, so that no rounding error decides between two paths that cost the
-// same. It is cut into pieces that are short, a tenth of the box, and long beside the spacing of
-// noisy points. Areas within a piece are added with their signs, so that what noise sweeps to and
-// fro cancels. Both curves are walked along once, and a piece's area is added up on the way.
+// coordinates rounded to 30 bits. So no rounding error decides between two paths of the same cost.
+// The path is cut into pieces of a tenth of the box, short but long compared with the spacing of
+// noisy points. Areas within a piece are added with their signs, so that noise cancels. One walk
+// along both curves adds up the areas of the pieces.
 //
-// Time O(n + m + k^2), memory O(n + m + k), where k = 50 T samples are matched and T is how many
-// widths and heights of its box P travels. Where T is above 280, samples are matched whose places
-// differ by at most 1e8 / k: O(n + m + k) then.
+// Time O(n + m + k^2), memory O(n + m + k). k = 50 T samples are matched, and T is the number of
+// widths and heights of its box that P travels. If T is above 280, only samples whose places differ
+// by at most 1e8 / k are matched: O(n + m + k) then.
 #pragma once
 
 #include <array>

@@ -19,7 +19,7 @@ constexpr double grid = 0x1p30;
 constexpr double far = 0x1p40;
 
 double on_grid(double x) noexcept {
-    constexpr double no_fraction = 0x1.8p52;  // what is added to it loses its own
+    constexpr double no_fraction = 0x1.8p52;  // a number that is added to it loses its fraction
     const double value = x * grid;
     return std::abs(value) < 0x1p51 ? value + no_fraction - no_fraction : std::nearbyint(value);
 }
@@ -78,8 +78,8 @@ class Travel {
     Way way_ = Way::unknown;
 };
 
-// Of every second value. Most of them are looked at as the least and the largest of some beside
-// each other.
+// The travel of every second value. Most values are tested in groups of neighbours, by the least
+// and the largest of a group.
 double travel_of(const double* values, std::ptrdiff_t count, Poller& poller) {
     constexpr std::ptrdiff_t some = 16;
     Travel travel(on_grid(values[0]));
@@ -113,7 +113,7 @@ AlignedBuffer positions_of(const double* scaled, std::ptrdiff_t count, std::size
         return {scaled[2 * i] - scaled[2 * i - 2], scaled[2 * i + 1] - scaled[2 * i - 1]};
     };
     poller.in_runs(count - 1, 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-        // In loops of their own, where vectors do it.
+        // In separate loops, which compilers vectorise.
         for (std::ptrdiff_t i = first + 1; i <= end; ++i) {
             const Point step = edge(i);
             at[i] = step.x * step.x + step.y * step.y;

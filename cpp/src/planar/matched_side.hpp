@@ -20,7 +20,7 @@ using curves::Point;
 using runtime::AlignedBuffer;
 using runtime::Poller;
 
-// The box of P; of Q, in a direction in which P has no extent.
+// The box of P. In a direction in which P's extent is zero, the box of Q.
 class CommonBox {
    public:
     CommonBox(const CurveView& P, const CurveView& Q) noexcept : CommonBox(Q, curves::Box(P)) {}
@@ -55,7 +55,7 @@ class Coordinates {
 struct Spot {
     double position;
     std::ptrdiff_t segment;
-    double fraction;  // of the segment: 0 at its start, 1 at its end and where it has no length
+    double fraction;  // of the segment: 0 at its start, 1 at its end and if its length is zero
     Point point;
 };
 

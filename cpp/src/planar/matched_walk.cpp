@@ -18,7 +18,7 @@ const VerticesAhead::Vertex* VerticesAhead::read(const Vertex* next) noexcept {
     const Vertex* const end = to + most;
     std::ptrdiff_t index = index_;
     for (; to != end && positions_[index] < end_sample_; ++to, ++index) {
-        // What is at a sample is at the place of a cell.
+        // A point at a sample is at the place of a cell.
         const auto sample = static_cast<std::int64_t>(positions_[index]);
         const Passage& passage = passages_[static_cast<std::size_t>(sample - first_sample_)];
         const double behind = positions_[index] - static_cast<double>(sample);

@@ -51,8 +51,8 @@ class VerticesAhead {
     // Reads those from `next` on, up to the last of the samples. Returns where `next` is then.
     const Vertex* read(const Vertex* next) noexcept;
     const Vertex* next() const noexcept { return vertices_.data() + before; }
-    // Of the last that has been read; infinite where there are no more on the way to the last
-    // sample.
+    // The place of the last vertex that has been read; infinite if no more vertices follow before
+    // the last sample.
     double last_place() const noexcept { return last_place_; }
 
     // Where the curve is at a position, given the vertex behind the place.
@@ -75,7 +75,8 @@ class VerticesAhead {
     static constexpr std::ptrdiff_t before = 2;
     static constexpr std::ptrdiff_t most = 256;  // ahead
 
-    // Without 1. By one comparison, of bits: those of what is negative, or no number, are more.
+    // Excludes 1. One comparison of bits suffices: negative numbers and NaN have larger bit
+    // patterns.
     static bool is_from_0_to_1(double fraction) noexcept {
         constexpr std::uint64_t bits_of_1 = std::uint64_t{0x3ff} << 52;
         std::uint64_t bits = 0;
@@ -99,7 +100,7 @@ class StepsAhead {
    public:
     // From a cell to the next, or up to the end of a piece between them.
     struct Step {
-        double end;                   // its place; it goes on from
+        double end;                   // its place; it starts at
         double begin;                 // the place of the cell, at
         double i, j;                  // the two samples, with
         double rate_of_p, rate_of_q;  // samples a place
@@ -107,7 +108,7 @@ class StepsAhead {
 
     StepsAhead(const Cells& cells, double places_per_piece) noexcept
         : cells_(cells), places_per_piece_(places_per_piece), end_of_piece_(places_per_piece) {}
-    // Reads the next ones, and where they pass samples. False where there are none.
+    // Reads the next cells, and the places where they pass samples. False if no cells remain.
     bool read(VerticesAhead& of_p, VerticesAhead& of_q) noexcept;
     const Step* next() const noexcept { return steps_.data(); }
     double last_place() const noexcept { return steps_[count_ - 1].end; }
@@ -121,9 +122,9 @@ class StepsAhead {
     std::array<Step, 2 * VerticesAhead::most_steps> steps_;
 };
 
-// Calls visit(place, p, q) where a cell is, a vertex of a curve, or the end of a piece, in
-// ascending order, each place once, p and q being the Spots there; then, at the end of a piece,
-// end_piece().
+// Calls visit(place, p, q) at each cell, each vertex of a curve and each end of a piece, in
+// ascending order. Each place comes once; p and q are the Spots there. At the end of a piece, calls
+// end_piece(), too.
 template <class Visit, class EndPiece>
 void walk(const Side& P, const Side& Q, const Cells& cells, double places_per_piece, Poller& poller,
           Visit visit, EndPiece end_piece) {

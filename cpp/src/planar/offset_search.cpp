@@ -1,11 +1,12 @@
 // The continuous search is a branch and bound over offsets. f is S-Lipschitz, which discards an
 // interval far from the best value in O(n + m). Near it that bound is too weak (of first order in
-// the interval's width h), so a second one is used: d_i is convex as long as s_i + o stays on one
-// segment, so it lies above its tangent at the interval's centre, less what the corners inside
-// the interval take away; that is added up exactly, corner by corner. What is lost is of second
-// order in h, so that a few intervals per halving survive. Typically 10^3 evaluations; how many
-// there are at most is stated in pcm.hpp. Each takes O(n + m) time: the second bound gives up, and
-// the interval is halved, where more corners are inside.
+// the interval's width h), so a second one is used. As long as s_i + o stays on one segment, d_i is
+// convex, so it lies above its tangent at the interval's centre. Corners inside the interval reduce
+// this bound; the reduction is added up exactly, corner by corner. The loss is of second order in
+// h, so that a few intervals per halving survive.
+//
+// Typically 10^3 evaluations are needed; pcm.hpp gives the maximum. Each takes O(n + m) time: if
+// more corners are inside, the second bound gives up, and the interval is halved.
 #include "planar/offset_search.hpp"
 
 #include <algorithm>
@@ -147,8 +148,8 @@ class AreaAtOffset {
         return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
     }
 
-    // A segment at or shortly before arc length u: a walk that starts there takes few steps, and
-    // none of those it takes waits for the steps to an earlier place.
+    // A segment at or shortly before arc length u. A walk that starts there takes few steps, and
+    // none of its steps waits for the steps to an earlier place.
     const Segment* signpost(double u) const noexcept {
         return segments_.data() + signposts_[static_cast<std::size_t>(u * signposts_per_length_)];
     }
@@ -196,8 +197,8 @@ class AreaAtOffset {
         return {u, distance, rate(gap, distance, position.segment())};
     }
 
-    // How far d_i falls below its tangent between the tangent's place and `end` after it: behind
-    // each corner d_i lies above the line that leaves the corner with its slope there.
+    // How far d_i falls below its tangent between the tangent's place and `end` after it. Behind
+    // each corner, d_i lies above the line that leaves the corner with d_i's derivative there.
     double deficit_after(std::size_t i, const Tangent& tangent, const ArcPosition& position,
                          double end) {
         const std::vector<double>& t = longer_.arc_lengths();
@@ -235,7 +236,7 @@ class AreaAtOffset {
     std::vector<Segment> segments_;
     std::vector<std::size_t> signposts_;
     double signposts_per_length_ = 0.0;
-    std::size_t corners_ = 0;  // looked at for the present lower bound
+    std::size_t corners_ = 0;  // tested for the present lower bound
 };
 
 double slack(const ArcCurve& shorter, const ArcCurve& longer) noexcept {
@@ -251,9 +252,9 @@ double grid_offset(double slack, std::ptrdiff_t i, std::ptrdiff_t count) noexcep
     return i == 0 ? 0.0 : slack * (static_cast<double>(i) / static_cast<double>(count - 1));
 }
 
-// The search for the best of a grid, in rounds: of every stretch between two offsets whose areas
-// are known, the middle one, unless none inside can be the best. f is S-Lipschitz: between a and b
-// it is at least (f(a) + f(b) - S (b - a)) / 2.
+// The search for the best of a grid, in rounds. Each round evaluates the middle offset of every
+// interval between two offsets with known areas, unless no offset inside can be the best. f is
+// S-Lipschitz: between a and b it is at least (f(a) + f(b) - S (b - a)) / 2.
 class GridSearch {
    public:
     GridSearch(const AreaAtOffset& f, double S, double slack, std::ptrdiff_t count)
@@ -314,7 +315,7 @@ class GridSearch {
         return !(0.5 * (stretch.area_at_first + stretch.area_at_last - S_ * width) > most);
     }
 
-    // The areas at what is wanted; many at once, as long as there are.
+    // The areas at the requested offsets, many at once while there are many.
     void evaluate() {
         areas_.resize(wanted_.size());
         std::size_t done = 0;
@@ -344,7 +345,7 @@ class GridSearch {
     Offset best_{0.0, std::numeric_limits<double>::infinity()};
 };
 
-// Rounding: a sum of as many terms as there are vertices, of distances between points whose
+// Rounding: the sum has a term for each vertex. The terms are distances between points whose
 // coordinates are at most those of the box, a distance from it, and the length of a curve.
 Offset best_of_grid(const AreaAtOffset& f, const ArcCurve& shorter, const ArcCurve& longer,
                     std::ptrdiff_t count) {

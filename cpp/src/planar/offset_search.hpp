@@ -33,13 +33,14 @@ struct SearchEffort {
     // Those for a tolerance of 1e-12. A zigzag against half of itself has as many equal minima as
     // segments, and takes some 20 evaluations for each.
     std::int64_t patience = std::int64_t{1} << 20;
-    // After them, the tolerance is doubled with every so many more, so that the search ends,
-    // whatever the curves.
+    // After them, the tolerance doubles with each further `impatience` evaluations, so that the
+    // search ends for all curves.
     std::int64_t impatience = std::int64_t{1} << 14;
 };
 
-// The best of all offsets, to 1e-12 of S, or 1e-13 of the value where that is more, as long as that
-// takes no more than `effort.patience` evaluations; never above the grid of pcm's default.
+// The best of all offsets, to 1e-12 of S, or to 1e-13 of the value if that is more. This accuracy
+// holds for up to `effort.patience` evaluations. The result is never above the best of pcm's
+// default grid.
 Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poller,
                    const SearchEffort& effort = {});
 

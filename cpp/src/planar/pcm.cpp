@@ -1,6 +1,6 @@
 // Partial curve mapping: the area between the shorter curve and the longer one, as a function of
-// the offset at which the shorter one starts, minimised on a grid or over all offsets. One
-// evaluation is a single walk along both curves, O(n + m).
+// the offset at which the shorter one starts. The area is minimised on a grid or over all offsets.
+// One evaluation is a single walk along both curves, O(n + m).
 #include "curvewise/pcm.hpp"
 
 #include <algorithm>

@@ -60,8 +60,8 @@ Measured measure_complex(const Quad& quad, Crossing crossing) noexcept {
         if (area >= 0.0) return {quad, area, Figure::split_ab_cd};
         const double other = Quad{quad.b, quad.c, quad.d, quad.a}.split_area();
         if (other >= 0.0) return {quad, other, Figure::split_bc_da};
-        // A corner lies on a side but for rounding: one of the two triangles has no area, and the
-        // other is the quadrilateral's own.
+        // A corner lies on a side but for rounding: the area of one of the two triangles is zero,
+        // and the other triangle has the area of the quadrilateral.
         return {quad, quad.area(), Figure::simple};
     }
     const Quad first = quad.first_swapped();

@@ -43,7 +43,7 @@ struct Part {
     }
 };
 
-// Of a curve without length in what is measured: its first part, again and again.
+// For a curve whose measured length is zero: its first part, again and again.
 std::vector<Cut> cuts_of_no_length(std::size_t count) {
     std::vector<Cut> cuts;
     double start = 1.0;
@@ -71,7 +71,7 @@ std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacin
     if (most < parts.size()) std::nth_element(parts.begin(), whole_end, parts.end(), less);
     std::sort(parts.begin(), whole_end, less);
     if (parts.front().length == 0.0) return cuts_of_no_length(count);
-    // Parts are bisected in the order of their lengths, and so the halves come in it too: the
+    // Parts are bisected in the order of their lengths, so the halves are in this order, too. The
     // longest part of all is the next whole segment or the next half.
     std::vector<Part> halves;
     halves.reserve(2 * count);

@@ -1,5 +1,5 @@
-// Two curves brought to the same number of vertices, so that vertex i of one faces vertex i of the
-// other: the first half of Algorithm 1 of Jekel et al. (2018).
+// Refines two curves to the same number of vertices, so that vertex i of one faces vertex i of the
+// other. This is the first half of Algorithm 1 of Jekel et al. (2018).
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ using Cut = std::pair<std::size_t, double>;  // segment, fraction of it
 struct FacingCurves {
     Polyline A;
     Polyline B;
-    std::vector<Cut> cuts;  // of B, in its order; none for `arc_length`
+    std::vector<Cut> cuts;  // of B, in its order; empty for `arc_length`
 };
 
 // For `distance` and `x`, A is the curve with more points (P if equal) and B the other, refined:
