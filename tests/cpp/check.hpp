@@ -1,6 +1,6 @@
-// Checks for the tests. A test is a plain executable: a check that fails prints its place, its
-// text and the values, the test goes on, and the executable returns 1 in the end. Macros are
-// there for the place and the text alone.
+// Checks for the tests. A test is a plain executable. A check that fails prints its place, its text
+// and the values; the test continues, and the executable returns 1 at the end. The macros exist
+// only for the place and the text.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,5 @@
-// Where a test takes its choices from: a random generator (Random of curves.hpp, RandomChoices), or
-// the bytes that a fuzzer hands it (tests/fuzz). What is built from them, curves and options, is
-// the same code.
+// The source of a test's choices: a random generator (Random of curves.hpp, RandomChoices), or the
+// bytes of a fuzzer (tests/fuzz). The same code builds curves and options from either.
 #pragma once
 
 #include <cmath>
@@ -20,7 +19,7 @@ class Choices {
     Choices& operator=(Choices&&) = delete;
     virtual ~Choices() = default;
 
-    // So many bytes, at most 8, the lowest first.
+    // The next `count` bytes, at most 8, the lowest first.
     virtual std::uint64_t bytes(int count) = 0;
 
     // 0, ..., count - 1.

@@ -1,7 +1,7 @@
-// Curves, and pairs of them, of the kinds that break such programs or make pruning hard: ties
-// everywhere, plateaus, repeated points, curves of one point, signed zeros, subnormals, numbers at
-// both ends of the range of a double, large offsets, curves that differ in their last bits, one far
-// point, loops that cross, spirals; alike, and not at all.
+// Curves, and pairs of curves, that often break such programs or make pruning hard: ties
+// everywhere, plateaus, repeated points, single points, signed zeros, subnormals, numbers at both
+// ends of the range of a double. Also large offsets, curves that differ in their last bits, one far
+// point, loops that cross, spirals. Pairs may be similar or not.
 #pragma once
 
 #include <algorithm>
@@ -100,7 +100,7 @@ inline Curve resampled(const Curve& curve, std::ptrdiff_t m, double size, double
     });
 }
 
-// The curve at m points, larger or smaller by a little, with some noise or none.
+// The curve at m points, slightly larger or smaller, with or without noise.
 inline Curve alike(const Curve& curve, std::ptrdiff_t m, Choices& choices) {
     const double size = choices.one_in(2) ? 1.0 : 1.0 + choices.uniform(-0.05, 0.05);
     const double noise = choices.one_in(3) ? 0.0 : choices.uniform(0.0, 0.05);
@@ -111,7 +111,7 @@ inline Curve alike(const Curve& curve, std::ptrdiff_t m, Choices& choices) {
 enum class Kind {
     lattice,   // -3, ..., 3: most distances are equal to others
     real,      // -1 to 1
-    offset,    // eighths beside a large number
+    offset,    // eighths added to a large number
     zeros,     // 0, -0, the smallest and some other numbers, all tiny
     extremes,  // any magnitude from the smallest to the largest double
     raw,       // any finite bit pattern
@@ -141,7 +141,7 @@ class HardCurves {
         return choices_.one_in(4) ? with_plateaus(result, 4, choices_) : result;
     }
 
-    // A curve of its own, or one that is like P.
+    // An independent curve, or one that is like P.
     Curve other(const Curve& P, std::ptrdiff_t m) {
         switch (choices_.index(8)) {
             case 0:
@@ -225,7 +225,7 @@ inline std::ptrdiff_t any_dimension(Choices& choices) {
 
 inline Kind any_kind(Choices& choices) { return static_cast<Kind>(choices.index(kinds)); }
 
-// For pruning, which looks at curves that are long or alike: sizes around those of its blocks.
+// Sizes around those of pruning's blocks. Pruning is tried for long or similar curves.
 inline std::ptrdiff_t any_block_size(Choices& choices) {
     switch (choices.index(4)) {
         case 0:

@@ -1,4 +1,4 @@
-// For tests of what is called with a poller: one that nobody hears of, and nobody stops.
+// A poller that reports nothing and never stops, for tests of functions that need one.
 #pragma once
 
 #include "runtime/poller.hpp"

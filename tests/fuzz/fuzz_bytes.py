@@ -1,9 +1,9 @@
 """Inputs for a reader of files: bytes changed at random, or steered by libFuzzer.
 
-A target (`fuzz_read_curve.py`, `fuzz_study.py`) has a function that raises where the reader did
-what it should not, seeds, and a way to change them. With atheris (pip install atheris) libFuzzer
-steers by the coverage of the reader, and ends the process at once, so that the files stay in
-TMPDIR; without it, or with --at-random, seeds are changed again and again.
+A target (`fuzz_read_curve.py`, `fuzz_study.py`) has seeds, a way to change them, and a function
+that raises if the reader misbehaves. With atheris (pip install atheris), libFuzzer steers by the
+coverage of the reader. It ends the process at once, so that the files stay in TMPDIR. Without
+atheris, or with --at-random, seeds are changed again and again.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _LONGEST = 8000  # bytes
 
 
 class FoundError(Exception):
-    """What a reader did is not what it should do."""
+    """A reader misbehaved."""
 
 
 def changed_bytes(data: bytes, choices: random.Random, words: Sequence[bytes]) -> bytes:
@@ -113,7 +113,7 @@ def _try_steered(check: Check, seeds: Path, change: Change, args: argparse.Names
         return change(data, choices)[:longest]
 
     options = [f"-max_total_time={args.seconds}", f"-seed={args.seed}", f"-max_len={_LONGEST}"]
-    with tempfile.TemporaryDirectory() as found:  # what is new goes to the first folder
+    with tempfile.TemporaryDirectory() as found:  # new inputs go to the first folder
         folders = [found, str(seeds)]
         arguments = [sys.argv[0], *options, "-print_final_stats=1", "-timeout=20", *folders]
         atheris.Setup(arguments, check, custom_mutator=mutate)

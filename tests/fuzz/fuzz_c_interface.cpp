@@ -1,8 +1,9 @@
-// The C interface with whatever a caller may give it: null pointers, sizes of 0 and below, strides
-// of any sign, numbers that are none, options out of range, other arrays than the measure's. Every
-// call returns a status it may return, leaves the result alone unless that is CURVEWISE_OK, refuses
-// a nan or an infinity, and then never returns a nan. The sanitizers see to the rest. (Pointers to
-// too few numbers, and sizes beyond what there is, are the caller's to avoid: they are not drawn.)
+// The C interface with any input that a caller may pass: null pointers, sizes of 0 and below,
+// strides of any sign, NaN and infinity, options out of range, arrays of another shape than the
+// measure's. Every call returns a documented status, and leaves the result alone unless that is
+// CURVEWISE_OK. It rejects a nan or an infinity, and otherwise never returns a nan. The sanitizers
+// check the rest. (Pointers to too few numbers, and sizes beyond the memory, are the caller's to
+// avoid: they are not drawn.)
 #include <cmath>
 #include <cstring>
 #include <limits>

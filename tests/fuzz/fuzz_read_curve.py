@@ -2,9 +2,9 @@
 
     python tests/fuzz/fuzz_read_curve.py --seconds 60
 
-Every input is read twice: by numpy's parser where the reader takes that short cut, and cell by
-cell, which decides; both must give the same numbers to the last bit. Seeds stand in
-corpus/read_curve. Ends with an error, and the bytes in crash-*, where anything was wrong.
+Every input is read twice: by numpy's parser, if the reader takes that short cut, and cell by cell,
+which decides. Both must give bitwise identical numbers. Seeds are in corpus/read_curve. An error
+ends the run, and writes the bytes to crash-*.
 """
 
 from __future__ import annotations

@@ -2,11 +2,11 @@
 
     python tests/fuzz/fuzz_study.py --seconds 60
 
-No other exception, no process started, nothing but the study's own tests and decks read, nothing
-written: an audit hook of the interpreter watches for it while a study is read. Three changes in
-four keep to the lines of TOML, as most random bytes are none: keys and values of the seeds, and
-values that nobody would expect, change their places. Seeds stand in corpus/study. Ends with an
-error, and the bytes in crash-*, where anything was wrong.
+No other exception is raised, no process is started, only the study's own tests and decks are read,
+and nothing is written. An audit hook of the interpreter checks this while a study is read. Most
+random bytes are not TOML. So three changes in four keep to its lines: keys and values of the seeds,
+and unexpected values, change their places. Seeds are in corpus/study. An error ends the run, and
+writes the bytes to crash-*.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-// One target: the bytes become choices, the choices curves and options (tests/stress), and the
-// first comparison that fails ends the run, as a crash does. So does an exception: what is drawn is
-// valid.
+// One target: the bytes become choices, and the choices become curves and options (tests/stress).
+// The first comparison that fails ends the run, as a crash does. So does an exception, because all
+// drawn inputs are valid.
 #pragma once
 
 #include <cstddef>

@@ -1,11 +1,11 @@
-"""An index, cutoffs and pruning beside brute force: 10^5 pairs of random curves.
+"""An index, cutoffs and pruning against brute force: 10^5 pairs of random curves.
 
     python tests/stress/bounded_variants.py
 
-Every variant of dtw and frechet that has bounds, on the plane and on the globe, and hausdorff and
-edit distances, which have none: the nearest 5, all within a radius, and batches with a cutoff, of
-groups of curves, each compared with the table of all values without pruning, with ==. Ends with 1
-where anything differs. Half a minute.
+The script tests every variant of dtw and frechet that has bounds, on the plane and on the globe. It
+also tests hausdorff and edit distances, which do not. For groups of curves, it computes the nearest
+5, all within a radius, and batches with a cutoff. It compares each with the table of all values
+without pruning, with ==. The exit status is 1 if anything differs. Half a minute.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-// frechet_continuous against the textbook (textbook_continuous.hpp): in whole numbers, to the last
-// bit of both ends of its interval, whatever power of two the curves are multiplied by and however
-// far they are moved; elsewhere by decisions with 113 bits just at and just below its value, and by
-// what leaves the real number as it is, which must leave the bits as they are.
+// frechet_continuous against the textbook (textbook_continuous.hpp). In whole numbers, both ends of
+// its interval are compared exactly, for curves multiplied by any power of two and moved by any
+// distance. Elsewhere, decisions with 113 bits are compared just at and just below its value.
+// Changes that keep the real number must give bitwise identical results.
 #pragma once
 
 #include <cmath>
@@ -61,8 +61,9 @@ class ContinuousCheck {
                      with_);
     }
 
-    // One part in 2^90 aside: a value that is a double itself must not hang on the rounding of the
-    // textbook. Where curves nearly coincide, 113 bits are too few for what is left of the squares.
+    // One part in 2^90 aside: a value that is a double itself must not depend on the rounding of
+    // the textbook. If curves nearly coincide, 113 bits are too few for the remainder of the
+    // squares.
     void check_decisions_in_reals() const {
         using textbook::Real;
         if (value_ < 1e-3) {
@@ -160,7 +161,7 @@ inline std::ptrdiff_t check_continuous(Choices& choices, Record& record) {
     const std::ptrdiff_t most = kind == Kind::lattice ? 7 : 10;
     const Curve P = curves.curve(choices.between(1, most));
     Curve Q = curves.other(P, choices.between(1, most));
-    if (kind == Kind::lattice) {  // What is like P may have left the whole numbers.
+    if (kind == Kind::lattice) {  // A curve made from P may have left the whole numbers.
         for (std::ptrdiff_t i = 0; i < Q.size(); ++i) {
             for (std::ptrdiff_t c = 0; c < Q.dim(); ++c) {
                 Q(i, c) = std::round(std::fmin(std::fmax(Q(i, c), -4.0), 4.0));

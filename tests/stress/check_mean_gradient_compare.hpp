@@ -1,7 +1,7 @@
-// What is made of the measures: the mean of curves under dtw, round by round against its
-// definition; the gradients of dtw and frechet against the textbook's path; compare against the
-// measures that it names; decisions of the discrete Fréchet distance; and calls that are stopped,
-// which either throw Stopped or return what they would have returned.
+// Functions built on the measures. The mean of curves under dtw is compared round by round with its
+// definition, and the gradients of dtw and frechet with the textbook's path. compare is compared
+// with the measures that it names. Also decisions of the discrete Fréchet distance, and stopped
+// calls, which either throw Stopped or return their usual result.
 #pragma once
 
 #include <chrono>
@@ -144,8 +144,8 @@ class MeanGradientCompareChecks {
         }
     }
 
-    // The squares that the distance is the root of are rounded as they are added; the decision is
-    // about the real number.
+    // The squares under the distance's root are rounded when they are added; the decision is about
+    // the real number.
     void check_within() {
         constexpr double rounding = 0x1p-48;
         const Curve &P = X_[0], &Q = X_[1];

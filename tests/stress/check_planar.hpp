@@ -1,7 +1,7 @@
 // area, pcm, curve_length and the pointwise measures against the textbook (textbook_planar.hpp), to
-// a stated tolerance: 1e-12 of the value, or, where the curves nearly coincide and the value is
-// what is left of larger numbers, of the largest that it could be (box_size and its like below). On
-// curves of any kind: no nan, no failure, the same bits by every way.
+// a stated tolerance. It is 1e-12 of the value. If the curves nearly coincide, the value is a small
+// remainder of larger numbers. Then it is 1e-12 of the largest possible value (box_size and similar
+// functions below). On curves of any kind: no nan, no failure, identical bits by every way.
 #pragma once
 
 #include <algorithm>
@@ -140,7 +140,7 @@ class PlanarCheck {
         if (choices_.one_in(8)) check_pcm_continuous(scale);
     }
 
-    // Not above any grid, and what it says of its offset is so.
+    // Not above the value of any grid, and consistent with its offset.
     void check_pcm_continuous(double scale) {
         curvewise::PcmOptions options;
         options.continuous = true;

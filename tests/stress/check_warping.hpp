@@ -1,7 +1,7 @@
-// dtw and frechet, by every way there is to them, against the textbook (textbook_warping.hpp), to
+// dtw and frechet, by every way to compute them, against the textbook (textbook_warping.hpp), to
 // the last bit: single calls, C, paths, tables, infos, cutoffs, batches on 1 to 3 threads, pdist,
-// Prepared, the nearest of an index, runs of a long curve. With orders of minkowski other than 1,
-// 2 and infinity, of which a power is not correctly rounded, to 1e-12 instead.
+// Prepared, the nearest of an index, runs of a long curve. Powers are not correctly rounded, so
+// orders of minkowski other than 1, 2 and infinity are compared to 1e-12 instead.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ inline curvewise::GroundDistance any_ground_distance(Choices& choices) {
     return ground;
 }
 
-// Options for curves of up to `longest` points of which any two have a path.
+// Options with which any two curves of up to `longest` points have a path.
 inline DtwOptions any_dtw_options(Choices& choices, std::ptrdiff_t longest) {
     DtwOptions options;
     options.ground = any_ground_distance(choices);
@@ -173,7 +173,7 @@ class Judge {
     void value(const char* way, double actual, double expected, const About& with) const {
         const std::string what = std::string(measure_) + (is_exact_ ? " " : " (powers) ") + way;
         if (is_exact_) return record_.same(what, actual, expected, with);
-        // Two numbers beyond the range, or beside its end, are alike, too.
+        // Two numbers beyond the range, or near its end, count as equal, too.
         const bool both_large = actual > 0x1.fffp1023 && expected > 0x1.fffp1023;
         const double allowed = both_large ? infinity : 1e-12 * expected + 0x1p-1060;
         record_.close(what, actual, expected, allowed, with);
@@ -191,7 +191,7 @@ class Judge {
 
 inline double cut(double value, double cutoff) { return value > cutoff ? infinity : value; }
 
-// A cutoff that is the value, a little less, a little more, much less, or none.
+// A cutoff equal to the value, a little less, a little more, much less, or infinity.
 inline double any_cutoff(Choices& choices, double value) {
     switch (choices.index(6)) {
         case 0:
@@ -238,7 +238,7 @@ void check_pair(Choices& choices, const Judge& judge, Options options, const Cur
     judge.value("value with a cutoff", single(options, P, Q), cut(value, options.cutoff), with);
 }
 
-// All pairs of two lists, and what is made of many distances.
+// All pairs of two lists, and the functions built on many distances.
 template <class Options>
 class BatchCheck {
    public:
@@ -375,8 +375,8 @@ class BatchCheck {
     std::vector<double> expected_;
 };
 
-// The best run of Q for P, then the best of what is left before and behind it: by all runs there
-// are, each with a table of its own. Ends at the first difference.
+// The best run of Q for P, then the best of the rest before and behind it: by all possible runs,
+// each with a separate table. Ends at the first difference.
 template <class Options>
 void check_subsequences(Choices& choices, const Judge& judge, const Options& options,
                         const Curve& P, const Curve& Q, const About& with) {
@@ -462,7 +462,7 @@ std::ptrdiff_t check_warping(Choices& choices, Record& record, const char* measu
     return batch.pairs();
 }
 
-// Tables from which the measures prune, alike enough that they do, or not.
+// Tables that are large enough for pruning, of curves similar enough for it, or not.
 inline std::ptrdiff_t check_large(Choices& choices, Record& record) {
     const Kind kind = choices.one_in(4) ? Kind::walk : Kind::loop;
     const std::ptrdiff_t dim = choices.between(1, 3);

@@ -2,7 +2,7 @@
 
 Each pair is measured by dtw and frechet with closed=True, and by brute force: open curves from each
 point of P and each point of Q. Fréchet distances must be equal, and sums to 1e-13. 100,000 pairs
-take about a quarter of an hour. Then times beside the open measure are printed.
+take about a quarter of an hour. Then the script prints times, next to those of the open measure.
 """
 
 from __future__ import annotations

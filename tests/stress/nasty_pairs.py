@@ -1,8 +1,8 @@
 """Random pairs of curves that break such programs, and options to go with them.
 
 The same kinds as in tests/cpp/hard_curves.hpp: ties, repeated points, one point, signed zeros,
-subnormals, both ends of the range of a double, large offsets, last bits, one far point. What is
-drawn hangs on the seed and the number of the pair alone.
+subnormals, both ends of the range of a double, large offsets, last bits, one far point. The draws
+depend only on the seed and the number of the pair.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ EXPONENTS += (499, 500, 501, 512, 1000, 1022)
 
 @dataclass
 class Pair:
-    """Two curves, what they are made of, and options by measure."""
+    """Two curves, the kind of their points, and options by measure."""
 
     kind: str
     P: Array
@@ -73,7 +73,7 @@ def _curve(rng: np.random.Generator, kind: str, n: int, dim: int) -> Array:
 
 
 def _plateaus(curve: Array, rng: np.random.Generator, one_in: int) -> Array:
-    """Repeat points, in one of so many curves."""
+    """Repeat points, in one of `one_in` curves."""
     if rng.integers(one_in) != 0:
         return curve
     begins = rng.integers(2, size=len(curve)).astype(bool)
@@ -82,7 +82,7 @@ def _plateaus(curve: Array, rng: np.random.Generator, one_in: int) -> Array:
 
 
 def _other(rng: np.random.Generator, kind: str, P: Array, m: int) -> Array:
-    """Return a curve of its own, or one that is like P."""
+    """Return an independent curve, or one that is like P."""
     which = rng.integers(8)
     if which == 0:
         return P.copy()

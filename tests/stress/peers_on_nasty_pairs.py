@@ -4,10 +4,10 @@
     python tests/stress/peers_on_nasty_pairs.py --pairs 5000 --seed 1
 
 The right number comes from tables whose distances neither overflow nor vanish (hypot), or, for
-squares, of fractions. "wrong" is further from it than 1e-9 of it, or a nan; what is refused is
-counted for itself, and so are pairs with coordinates beyond 1e100 or below 1e-100 in magnitude,
-where squares overflow or vanish. Then what each package says of curves that are no curves: nan,
-infinity, no points; and of 1000 random pairs with one coordinate that is nan.
+squares, from fractions. A "wrong" number is a nan, or differs by more than 1e-9 of the right one.
+Refusals are counted separately. So are pairs with coordinates beyond 1e100 or below 1e-100 in
+magnitude, whose squares overflow or vanish. Then the script tests each package with invalid curves:
+nan, infinity, no points; and with 1000 random pairs with one coordinate that is nan.
 """
 
 from __future__ import annotations
@@ -115,14 +115,14 @@ def said(call: Call, P: Array, Q: Array) -> float | str:
     """Return a call's number, or the name of its exception."""
     try:
         return call(P, Q)
-    except BaseException as error:  # A panic in Rust is no Exception.
+    except BaseException as error:  # A panic in Rust is not an Exception.
         if isinstance(error, KeyboardInterrupt):
             raise
         return type(error).__name__
 
 
 def said_of_nan(call: Call, pairs: int, seed: int) -> Counter[str]:
-    """Count what a call says of random pairs in each of which one coordinate is nan."""
+    """Count the results of a call for random pairs with one coordinate that is nan."""
     random = np.random.default_rng(seed)
     counts: Counter[str] = Counter()
     for _ in range(pairs):

@@ -1,12 +1,13 @@
 // Random nasty pairs and options, without end: every measure against a textbook's definition, which
-// shares no code with the library (textbook_*.hpp). What is drawn hangs on the seed and the number
-// of the round alone, so a run can be stopped and resumed, and a failure be seen again by itself.
+// shares no code with the library (textbook_*.hpp). The draws depend only on the seed and the
+// number of the round. So a run can be stopped and resumed, and a failure can be reproduced alone.
 //
 //   CURVEWISE_ISA=v3 random_pairs --pairs 1000000 --seed 1 --state v3.state
 //   random_pairs --seed 1 --round 8123
 //
-// A round is one pair, or two lists of up to 12 pairs. --state names a file to which the counts are
-// written now and then, and from which a run goes on. Ends with 1 where anything was wrong.
+// A round is one pair, or two lists of up to 12 pairs. --state names a file to which the run writes
+// its counts from time to time, and from which it continues. The exit status is 1 if anything was
+// wrong.
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -67,7 +68,7 @@ void play(Run& run) {
     ++run.round;
 }
 
-// Lines of a number or two, a tabulator, and what was counted.
+// Lines of a number or two, a tabulator, and the name of the count.
 void write_state(const Run& run, const std::string& path) {
     std::ofstream out(path + ".new");
     out << run.seed << ' ' << run.round << ' ' << run.pairs << '\n';

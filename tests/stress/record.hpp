@@ -1,5 +1,5 @@
-// What a stress run counts: comparisons of every kind, and those that failed, the first of which
-// are printed with all that is needed to see them again.
+// The counts of a stress run: comparisons of every kind, and failed ones. The first failures are
+// printed with all data that is needed to reproduce them.
 #pragma once
 
 #include <cmath>

@@ -2,11 +2,12 @@
 
     CURVEWISE_ISA=v3 python tests/stress/reference_pairs.py --pairs 20000 --seed 1 --state v3.json
 
-dtw and frechet, their paths and tables, and both ends of frechet_continuous to the last bit; the
-other measures to 1e-12 of the value, or, where curves nearly coincide and the value is what is left
-of larger numbers, of the largest that it could be; and every refusal in the same words. A run can
-be stopped, and goes on from its state. The reference takes milliseconds a pair, so this is the
-small run; random_pairs.cpp is the large one. Ends with 1 where anything was wrong.
+dtw and frechet, their paths and tables, and both ends of frechet_continuous must be bitwise
+identical. The other measures are compared to 1e-12 of the value. If curves nearly coincide, the
+value is a small remainder of larger numbers; then it is 1e-12 of the largest possible value. Every
+error must have the same words. A run can be stopped, and continues from its state. The reference
+takes milliseconds a pair, so this is the small run; random_pairs.cpp is the large one. The exit
+status is 1 if anything was wrong.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ TOLERANCE = 1e-12
 
 
 class Record:
-    """What was compared, what was wrong, and what was left out, and why."""
+    """Counts of comparisons and of errors, and the skipped comparisons with their reasons."""
 
     def __init__(self) -> None:
         self.compared: Counter[str] = Counter()

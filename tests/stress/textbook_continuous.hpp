@@ -27,7 +27,7 @@ using Real = long double;  // 113 bits, or else too_few_bits
 #endif
 constexpr bool has_113_bits = sizeof(Real) == 16 && static_cast<Real>(1) + 0x1p-110L != 1;
 
-// The square of a leash, numerator / denominator.
+// A squared distance, numerator / denominator.
 struct Ratio {
     Wide numerator, denominator;
     friend bool operator<(const Ratio& x, const Ratio& y) {
@@ -70,7 +70,7 @@ class ExactRule {
         const Products<Wide> of(P, i, Q, j);
         return of.distance * square_.denominator <= square_.numerator;
     }
-    // What of an edge is within the leash of a vertex.
+    // The part of an edge within the radius of a vertex.
     std::optional<Part> free(const Curve& edges, std::ptrdiff_t i, const Curve& points,
                              std::ptrdiff_t j) const {
         const Products<Wide> of(edges, i, points, j);
@@ -163,8 +163,8 @@ bool is_long_enough(const Rule& rule, const Curve& P, const Curve& Q) {
     if (!rule.is_within(P, 0, Q, 0) || !rule.is_within(P, P.size() - 1, Q, Q.size() - 1)) {
         return false;
     }
-    // What is reached of the lower sides of a row of cells (edges of Q beside a vertex of P), and
-    // of the left side of the next cell (an edge of P beside a vertex of Q).
+    // The reachable part of the lower sides of a row of cells (edges of Q, for a vertex of P), and
+    // of the left side of the next cell (an edge of P, for a vertex of Q).
     const auto vertex = [](const Curve& curve, std::ptrdiff_t i) {
         return std::min(i, curve.size() - 1);
     };
@@ -183,7 +183,7 @@ bool is_long_enough(const Rule& rule, const Curve& P, const Curve& Q) {
         lower[static_cast<std::size_t>(j)] = part;
         if (!rule.is_within(P, 0, Q, vertex(Q, j + 1))) break;
     }
-    bool column_reached = true;  // all of P's first vertices beside Q's first
+    bool column_reached = true;  // whether all of P's first vertices are reachable at Q's first
     for (std::ptrdiff_t i = 0; i < n; ++i) {
         std::optional<Part> left;
         if (column_reached && rule.is_within(P, i, Q, 0)) left = rule.free(P, i, Q, 0);
@@ -202,7 +202,7 @@ bool is_long_enough(const Rule& rule, const Curve& P, const Curve& Q) {
     return lower.back().has_value();
 }
 
-// All squares of leashes at which the free space may change.
+// All squared radii at which the free space may change.
 inline std::vector<Ratio> critical_squares(const Curve& P, const Curve& Q) {
     std::vector<Ratio> squares;
     for (const bool swapped : {false, true}) {

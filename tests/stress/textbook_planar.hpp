@@ -1,7 +1,7 @@
-// area (Algorithm 1 of the paper, and by arc length), pcm and curve_length as their definitions
-// read, quadratic where that is shorter. What decides (which segment is longest, whether a
-// quadrilateral intersects itself) is computed in doubles in the stated order of operations, so
-// that decisions agree at ties; what is measured is added up in long double.
+// area (Algorithm 1 of the paper, and by arc length), pcm and curve_length, directly by their
+// definitions, quadratic if that is shorter. Decisions (the longest segment, whether a
+// quadrilateral intersects itself) are computed in doubles in the stated order of operations, so
+// that they agree at ties. Measured quantities are added up in long double.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-// dtw and the discrete Fréchet distance as textbooks have them: a whole table, three loops, nothing
-// left out, no code of the library's. One rule is the contract's own: curves whose largest
-// coordinate is beyond 2^500, or below 2^-500, are multiplied by a power of two before squares are
-// taken, and the result is multiplied back. Time and memory O(n m).
+// dtw and the discrete Fréchet distance in textbook form: a whole table, three loops, nothing
+// skipped, no code of the library. One rule comes from the contract: if the largest coordinate of
+// the curves is beyond 2^500, or below 2^-500, they are multiplied by a power of two before squares
+// are taken, and the result is multiplied back. Time and memory O(n m).
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ inline double largest_coordinate(const Curve& curve) {
     return largest;
 }
 
-// The k such that both curves times 2^-k can be squared; 0 where they can as they are.
+// The k such that both curves times 2^-k can be squared; 0 if the unscaled curves can.
 inline int range_exponent(const Curve& P, const Curve& Q) {
     const double largest = std::max(largest_coordinate(P), largest_coordinate(Q));
     if (largest <= 0x1p500 && (largest == 0.0 || largest >= 0x1p-500)) return 0;
@@ -127,10 +127,10 @@ inline Path traced(const Table& t, const Rules& rules, std::ptrdiff_t j) {
     return path;
 }
 
-// Value, path and table. For Fréchet with the Euclidean distance the path is that of the squares,
-// of which fewer are equal than of their roots; the values are taken from the roots.
+// Value, path and table. For Fréchet with the Euclidean distance, the path is that of the squares,
+// because fewer squares than roots are equal; the values are taken from the roots.
 inline Answer answer(const Curve& P, const Curve& Q, const Rules& rules) {
-    // Of degree 0, the curves are compared as they are.
+    // Of degree 0, the curves are compared unscaled.
     const int k = oracle::degree(rules.ground.metric) == 0 ? 0 : range_exponent(P, Q);
     const Curve p = k == 0 ? P : P.times_power_of_two(-k);
     const Curve q = k == 0 ? Q : Q.times_power_of_two(-k);

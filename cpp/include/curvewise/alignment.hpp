@@ -14,8 +14,8 @@ namespace curvewise {
 /// A distance, and the path that attains it.
 struct Alignment {
     double distance = 0.0;
-    /// Index pairs (i, j): point i of P is matched to point j of Q. Each step is (1, 0), (0, 1)
-    /// or (1, 1). Empty where a step pattern admits no path; the distance is then infinity.
+    /// Index pairs (i, j): point i of P is matched to point j of Q. Each step is (1, 0), (0, 1) or
+    /// (1, 1). Empty if a step pattern admits no path; the distance is then infinity.
     std::vector<std::array<std::int64_t, 2>> path;
 };
 

@@ -1,14 +1,16 @@
 /// \file
-/// The area between two curves in the plane: Algorithm 1 of Jekel, Venter, Venter, Stander &
-/// Haftka (2018). The curve with fewer points is refined until both have the same number;
-/// quadrilateral i is (A[i], A[i+1], B[i+1], B[i]); the measure is the sum of their areas.
-/// Symmetric to rounding, except with Spacing::arc_length and Spacing::matched. Time
-/// O(n + m + |n - m| log m), with Spacing::matched O(n + m + (50 T)^2), where P travels T widths
-/// and heights of its box, at most that of T = 280, with Spacing::function O(n + m); memory
-/// O(n + m). Throws std::invalid_argument for a curve that is not finite, has fewer than 2 points
-/// or other than 2 coordinates; with Spacing::function for one whose x turns back, and for curves
-/// without a common span of x;
-/// std::bad_alloc; Stopped. Safe from any number of threads.
+/// The area between two curves in the plane: Algorithm 1 of Jekel, Venter, Venter, Stander & Haftka
+/// (2018). The curve with fewer points is refined until both have the same number. Quadrilateral i
+/// is (A[i], A[i+1], B[i+1], B[i]); the measure is the sum of their areas. Symmetric to rounding,
+/// except with Spacing::arc_length and Spacing::matched.
+///
+/// Time O(n + m + |n - m| log m), memory O(n + m). Spacing::function takes O(n + m) time.
+/// Spacing::matched takes O(n + m + (50 T)^2): P travels T widths and heights of its box, and T
+/// counts as at most 280.
+///
+/// Throws std::invalid_argument for a curve that is not finite, has fewer than 2 points or not 2
+/// coordinates; with Spacing::function also if x turns back, or if the curves do not share a span
+/// of x. Throws std::bad_alloc and Stopped. Safe from any number of threads.
 ///
 ///     curvewise::AreaOptions options;
 ///     options.spacing = curvewise::Spacing::x;   // raw stress and strain
@@ -26,12 +28,12 @@
 
 namespace curvewise {
 
-/// What the refinement measures a segment by. Raw stress-strain loops want `x`, or curves scaled by
-/// normalize(), functions of x `function`: with `distance` stress, being the larger number, decides
-/// alone (174 where the paper's Table 4 says 45.1).
+/// The length of a segment in the refinement. For raw stress-strain loops use `x` (or scale the
+/// curves by normalize()), for functions of x use `function`. With `distance`, stress is the larger
+/// number and decides alone: 174 instead of the 45.1 in the paper's Table 4.
 enum class Spacing {
     distance,    ///< sqrt(dx^2 + dy^2): the paper's text
-    x,           ///< |dx|: what the paper's Table 4 was computed with (within 1.4 %)
+    x,           ///< |dx|: the paper's Table 4 was computed with it (within 1.4 %)
     arc_length,  ///< a vertex wherever the other curve has one, by relative arc length, after
                  ///< scaling by P's box: independent of how either curve was sampled
     matched,  ///< not Algorithm 1: by a warping path, areas with their signs in pieces of a tenth
@@ -45,7 +47,7 @@ constexpr auto choice_names(Spacing /*spacing*/) noexcept {
     return names_up_to<Spacing::function>("distance", "x", "arc_length", "matched", "function");
 }
 
-/// What becomes of a quadrilateral that intersects itself.
+/// The treatment of a quadrilateral that intersects itself.
 enum class Crossing {
     rearrange,  ///< two vertices are swapped until it is simple: the paper. Jumps where a
                 ///< quadrilateral turns complex.
@@ -90,9 +92,9 @@ void visit_options(AreaOptions& options, Visit&& visit) {
 
 /// The quadrilaterals between two curves, and their areas: quads[i] has areas[i].
 struct AreaQuads {
-    /// Vertices in the order whose area is given; the original order where a complex
-    /// quadrilateral was split, and with Spacing::matched, where an area is negative if it counts
-    /// against its piece.
+    /// Vertices in the order that gives the area, or in the original order if a complex
+    /// quadrilateral was split and with Spacing::matched. With Spacing::matched, an area is
+    /// negative if its sign is opposite to its piece's.
     std::vector<std::array<std::array<double, 2>, 4>> quads;
     std::vector<double> areas;
 };
@@ -106,7 +108,7 @@ CURVEWISE_EXPORT double area(const CurveView& P, const CurveView& Q,
 CURVEWISE_EXPORT AreaQuads area_quads(const CurveView& P, const CurveView& Q,
                                       const AreaOptions& options = {}, Control* control = nullptr);
 
-/// For code that serves all measures alike (measure.hpp).
+/// For code that treats all measures in the same way (measure.hpp).
 inline double evaluate(const AreaOptions& options, const CurveView& P, const CurveView& Q,
                        Control* control = nullptr) {
     return area(P, Q, options, control);

@@ -1,9 +1,9 @@
 /// \file
-/// How this library was built, and what it uses on this machine. The kernels are compiled once per
-/// instruction-set level, and the first call of the process chooses the highest one that the
+/// How this library was built, and its instruction-set level on this machine. The kernels are
+/// compiled once for each level. The first call of the process chooses the highest level that the
 /// processor has, or the one that the environment variable CURVEWISE_ISA names ("baseline", "v3",
-/// "v4"). Every call throws std::runtime_error while that names a level which the machine lacks;
-/// no level ever changes a result.
+/// "v4"). If the machine does not have that level, every call throws std::runtime_error. The level
+/// never changes a result.
 ///
 ///     std::puts(curvewise::build_info().active.c_str());   // v4
 #pragma once
@@ -15,16 +15,16 @@
 
 namespace curvewise {
 
-/// What build_info() returns.
+/// The result of build_info().
 struct BuildInfo {
     std::string version;
     std::string compiler;
     std::string eigen;
-    std::vector<std::string> instruction_sets;  ///< those the machine has, the slowest first
+    std::vector<std::string> instruction_sets;  ///< levels that the machine has, the slowest first
     std::string active;                         ///< the one in use
 };
 
-/// Returns how the library was built, and what it uses on this machine.
+/// Returns how the library was built, and its instruction-set level on this machine.
 CURVEWISE_EXPORT BuildInfo build_info();
 
 }  // namespace curvewise

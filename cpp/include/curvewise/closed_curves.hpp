@@ -1,25 +1,25 @@
 /// \file
-/// Closed curves, which begin nowhere: dtw and the discrete Fréchet distance over all walks that go
-/// once around both. A walk is a sequence of pairs of points, whose steps are (1, 0), (0, 1) or
-/// (1, 1) around the curves, and whose last step returns to its first pair. The value is the least
+/// Closed curves, which have no first point: dtw and the discrete Fréchet distance over all walks
+/// that go once around both. A walk is a sequence of pairs of points. Its steps are (1, 0), (0, 1)
+/// or (1, 1) around the curves, and its last step returns to its first pair. The value is the least
 /// sum (closed_dtw) or the least maximum (closed_frechet) of the ground distances of its pairs:
 ///
 ///     min over i, j of dtw(P from point i on, Q from point j on)
 ///
-/// and likewise for frechet. A point at the end of a curve that equals its first one only closes
-/// the curve, and is left out. Symmetric; rotations of either curve change it by rounding only
-/// (closed_frechet: not at all).
+/// and the same with frechet. If the last point of a curve equals its first one, it only closes the
+/// curve, and is removed. The values are symmetric. Rotations of either curve change closed_dtw by
+/// rounding only, and closed_frechet not at all.
 ///
-/// closed_dtw: walks that begin at different points of Q need not cross, so that each is searched
-/// for between two others (Maes, On a cyclic string-to-string correction problem, Information
+/// closed_dtw: walks that begin at different points of Q need not cross. So each is searched for
+/// between two others (Maes, On a cyclic string-to-string correction problem, Information
 /// Processing Letters 35, 1990). Time O(n m log m), memory O(n m) bytes.
 ///
-/// closed_frechet: bisection among distances; whether there is a walk within a bound is decided by
-/// the first and the last point of Q from which a pair is reached (after Alt & Godau, 1995). Time
-/// O(n m) a decision, of which there are some 20, less where curves are alike; memory O(n + m), for
-/// a path O(n m) bytes.
+/// closed_frechet: bisection among distances. The first and the last point of Q from which a pair
+/// is reached decide whether there is a walk within a bound (after Alt & Godau, 1995). Time O(n m)
+/// a decision, with about 20 decisions, less for similar curves. Memory O(n + m), for a path O(n m)
+/// bytes.
 ///
-/// Errors are as for dtw(); a ground distance of one's own is refused.
+/// Errors are as for dtw(); a custom ground distance is rejected.
 #pragma once
 
 #include <limits>
@@ -38,7 +38,7 @@ struct ClosedOptions {
     static constexpr const char* measure = "closed curves";
 
     GroundDistance ground;
-    /// A distance above it, at least 0, becomes infinity, and has no path.
+    /// A larger distance becomes infinity, without a path. At least 0.
     double cutoff = std::numeric_limits<double>::infinity();
 
     /// The elementary steps, of some nanoseconds each, roughly.

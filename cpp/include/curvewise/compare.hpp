@@ -1,5 +1,5 @@
 /// \file
-/// All measures of a pair of curves at once, under conditions that make sense together.
+/// All measures of a pair of curves at once, under compatible conditions.
 ///
 ///     const curvewise::Comparison found = curvewise::compare(experiment, simulation);
 ///     std::printf("area %g, Fréchet %g\n", *found.area, found.frechet);
@@ -23,7 +23,7 @@ enum class Preset {
              ///< curve_length with mean_abs
     paper,  ///< those of Table 4 of Jekel et al. (2018): area raw with Spacing::x; frechet, and dtw
             ///< with symmetric2, on scaled curves; pcm and curve_length raw
-    raw     ///< every default, on the curves as they are
+    raw     ///< every default, on unscaled curves
 };
 
 /// The names of the enumerators, in their order.
@@ -40,7 +40,7 @@ struct Condition {
 /// One for each measure, in the order of the list (measure.hpp).
 CURVEWISE_EXPORT std::vector<Condition> conditions(Preset preset);
 
-/// One value for each measure. Those of the plane have none where curves have other than two
+/// One value for each measure. Measures of the plane are empty if the curves do not have two
 /// coordinates.
 struct Comparison {
     /// A measure by name.
@@ -58,7 +58,7 @@ struct Comparison {
     std::optional<double> curve_length;
 };
 
-/// Throws what the measures throw: std::invalid_argument, std::bad_alloc, Stopped. The control
+/// Throws the errors of the measures: std::invalid_argument, std::bad_alloc, Stopped. The control
 /// watches one measure after the other, not their sum.
 CURVEWISE_EXPORT Comparison compare(const CurveView& P, const CurveView& Q,
                                     Preset preset = Preset::scaled, Control* control = nullptr);

@@ -1,8 +1,8 @@
 /// \file
-/// A way to watch a long call and to stop it. A Control is given to a call as its last argument;
-/// stop() may then be called from any thread or from a signal handler, and done() read by any
-/// thread. The call looks at it every fraction of a millisecond and, when stopped, ends all its
-/// threads and throws Stopped. A call without one pays nothing.
+/// Watches a long call and can stop it. A Control is the last argument of a call. Then any thread
+/// or a signal handler may call stop(), and any thread may read done(). The call checks the Control
+/// every fraction of a millisecond. If it is stopped, the call ends all its threads and throws
+/// Stopped. A call without a Control pays nothing.
 ///
 ///     curvewise::Control control([](std::int64_t done, std::int64_t total) {
 ///         std::printf("%3.0f %%\r", 100.0 * done / total);
@@ -10,8 +10,9 @@
 ///     });
 ///     double value = curvewise::dtw(P, Q, {}, &control);
 ///
-/// Work is counted in nominal steps: cells of the table, n m for a pair of n and m points, for dtw
-/// and frechet (twice that for a path), and points, n + m for a pair, for the other measures.
+/// Work is counted in nominal steps. For dtw and frechet these are cells of the table, n m for a
+/// pair of n and m points (twice that for a path). For the other measures they are points, n + m
+/// for a pair.
 #pragma once
 
 #include <atomic>
@@ -29,18 +30,18 @@ namespace runtime {
 class Poller;
 }
 
-/// What a call throws whose Control was stopped. Its output arrays are then unspecified.
+/// The exception of a call whose Control was stopped. Its output arrays are then unspecified.
 class CURVEWISE_EXPORT Stopped : public std::runtime_error {
    public:
     Stopped() : std::runtime_error("stopped before the work was done") {}
 };
 
-/// One per call at a time; may be used again for another call unless it was stopped.
+/// Serves one call at a time. Can be used again for another call unless it was stopped.
 class Control {
    public:
-    /// Called with (done, total) by the thread that made the call, about once an interval while the
-    /// work goes on and once when it is done. Returns whether to go on. What it throws stops the
-    /// call, with all its threads, which then throws it.
+    /// Called with (done, total) by the thread that made the call, about once an interval during
+    /// the work and once at its end. Returns whether to continue. An exception stops the call, with
+    /// all its threads, and the call then throws it.
     using Report = std::function<bool(std::int64_t done, std::int64_t total)>;
 
     Control() = default;

@@ -1,7 +1,7 @@
 /// \file
-/// A curve as every function of the library takes it: a view of n points with dim coordinates,
-/// owned by the caller, of any layout that two strides can describe. Costs nothing to copy; copies
-/// no points, ever. What it views must live as long as it does.
+/// A curve, as every function of the library takes it: a view of n points with dim coordinates. The
+/// caller owns the points, in any layout that two strides can describe. A view is cheap to copy and
+/// never copies points. The points must live as long as the view.
 ///
 ///     CurveView(xy, 240, 2)               240 points, row-major: x0, y0, x1, y1, ...
 ///     CurveView(xy, 240, 2, 1, 240)       column-major: all x, then all y
@@ -11,13 +11,12 @@
 ///     curve_view(matrix)                  an Eigen matrix, map, block: curvewise/eigen.hpp
 ///     CurveView(floats, 240, 2, 2, 1)     of floats, for lists: cdist, pdist, Prepared, Index
 ///
-/// A list of floats is never copied as a whole: its curves are converted to doubles, exactly, where
-/// they are computed, some at a time. All else refuses floats.
+/// A list of floats is never copied as a whole. Its curves are converted to doubles, exactly, for
+/// each computation, some at a time. Functions of single pairs reject floats.
 ///
-/// A view itself checks nothing: the function that is given one does, and throws
-/// std::invalid_argument, in words that name the argument and the place:
-/// "Q[17, 1] is nan; curves must be finite". Reading one from any number of threads is safe while
-/// nobody writes to its points.
+/// A view does not check anything. The function that receives it does, and throws
+/// std::invalid_argument with the argument and the place: "Q[17, 1] is nan; curves must be finite".
+/// Any number of threads may read a view while its points do not change.
 #pragma once
 
 #include <array>
@@ -37,7 +36,7 @@ class CurveView {
         : CurveView(data, n, dim, dim, 1) {}
 
     /// Strides count doubles, not bytes, and may be negative. A column stride of 0 with dim = 1
-    /// says that the curve is a flat list of numbers: messages then print Q[17], not Q[17, 0].
+    /// marks a flat list of numbers: messages then print Q[17], not Q[17, 0].
     CurveView(const double* data, std::ptrdiff_t n, std::ptrdiff_t dim, std::ptrdiff_t row_stride,
               std::ptrdiff_t col_stride) noexcept
         : data_(data), n_(n), dim_(dim), row_stride_(row_stride), col_stride_(col_stride) {}
@@ -47,7 +46,7 @@ class CurveView {
               std::ptrdiff_t col_stride) noexcept
         : floats_(data), n_(n), dim_(dim), row_stride_(row_stride), col_stride_(col_stride) {}
 
-    /// Of no points, as `nullptr` says; it would fit doubles and floats alike.
+    /// A view without points, for `nullptr`, which would otherwise match both doubles and floats.
     CurveView(std::nullptr_t, std::ptrdiff_t n, std::ptrdiff_t dim, std::ptrdiff_t row_stride,
               std::ptrdiff_t col_stride) noexcept
         : CurveView(static_cast<const double*>(nullptr), n, dim, row_stride, col_stride) {}
@@ -73,8 +72,7 @@ class CurveView {
 
     std::ptrdiff_t size() const noexcept { return n_; }
     std::ptrdiff_t dim() const noexcept { return dim_; }
-    /// The coordinates of all points where they are doubles side by side, row-major; null
-    /// elsewhere.
+    /// The coordinates of all points if they are contiguous doubles, row-major; otherwise null.
     const double* row_major() const noexcept {
         const bool is_row = col_stride_ == 1 || dim_ == 1;
         return is_row && row_stride_ == dim_ ? data_ : nullptr;

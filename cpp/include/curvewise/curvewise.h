@@ -1,20 +1,19 @@
 /** \file
- * curvewise for C (C99), and through cpp/fortran/curvewise.f90 for Fortran: the measures, the
- * scaling that goes with them, all pairs of many curves, and points of material. What a measure or
- * a material means, costs and refuses is written in the C++ header of its name (area.hpp, pcm.hpp,
- * frechet.hpp, dtw.hpp, curve_length.hpp, pairwise.hpp, materials.hpp); the numbers are the same to
- * the last bit.
+ * curvewise for C (C99), and through cpp/fortran/curvewise.f90 for Fortran: the measures, scaling,
+ * all pairs of many curves, and material points. The C++ header of each measure or material has its
+ * definition, cost and errors (area.hpp, pcm.hpp, frechet.hpp, dtw.hpp, curve_length.hpp,
+ * pairwise.hpp, materials.hpp). The numbers are bitwise identical.
  *
  *     curvewise_curve P = curvewise_rows(xy, 240, 2), Q = curvewise_rows(uv, 150, 2);
  *     double value;
  *     curvewise_error error;
  *     if (curvewise_dtw(&P, &Q, NULL, &value, &error) != CURVEWISE_OK) puts(error.message);
  *
- * There is nothing to create or to free, and no state: all functions may be called from any number
- * of threads. Curves are read where they are, never copied by the caller. Options given as NULL
- * are the defaults; otherwise start from CURVEWISE_..._DEFAULTS, since a struct of zeros is not
- * the default. Every function that can fail returns a curvewise_status, writes its result only if
- * that is CURVEWISE_OK, and says what was wrong in `error`, which may be NULL. */
+ * You create and free nothing, and there is no state: any number of threads may call all functions.
+ * Curves are read in place and never copied by the caller. NULL options are the defaults; otherwise
+ * start from CURVEWISE_..._DEFAULTS, since a struct of zeros is not the default. Every function
+ * that can fail returns a curvewise_status. It writes its result only if that is CURVEWISE_OK. It
+ * writes the message to `error`, which may be NULL. */
 /* NOLINTBEGIN(modernize-*,readability-identifier-naming): rules for C++ */
 #ifndef CURVEWISE_CURVEWISE_H
 #define CURVEWISE_CURVEWISE_H
@@ -29,7 +28,7 @@
 extern "C" {
 #endif
 
-/** What a call returns. */
+/** The result of a call. */
 enum curvewise_status {
     CURVEWISE_OK = 0,
     CURVEWISE_INVALID_ARGUMENT = 1, /**< a curve or an option is refused */
@@ -110,7 +109,7 @@ typedef struct curvewise_area_options {
     int crossing; /**< curvewise_crossing */
     int squared;  /**< not 0: sum the squared areas */
 } curvewise_area_options;
-/** What NULL stands for. */
+/** The options for NULL. */
 #define CURVEWISE_AREA_DEFAULTS \
     { CURVEWISE_SPACING_DISTANCE, CURVEWISE_REARRANGE, 0 }
 
@@ -119,7 +118,7 @@ typedef struct curvewise_pcm_options {
     ptrdiff_t offsets; /**< at least 1 */
     int continuous;    /**< not 0: search all offsets; `offsets` is not used */
 } curvewise_pcm_options;
-/** What NULL stands for. */
+/** The options for NULL. */
 #define CURVEWISE_PCM_DEFAULTS \
     { 200, 0 }
 
@@ -128,11 +127,11 @@ typedef struct curvewise_frechet_options {
     int metric;        /**< curvewise_metric */
     double p;          /**< the order of CURVEWISE_MINKOWSKI; not used by other metrics */
     ptrdiff_t workers; /**< threads, -1 for one per core */
-    int prune;         /**< not 0: leave out what cannot matter of the table */
+    int prune;         /**< not 0: skip cells that cannot affect the result */
     double cutoff;     /**< a value above it becomes infinity */
     double radius;     /**< of the sphere of CURVEWISE_HAVERSINE; not used by other metrics */
 } curvewise_frechet_options;
-/** What NULL stands for. */
+/** The options for NULL. */
 #define CURVEWISE_FRECHET_DEFAULTS \
     { CURVEWISE_EUCLIDEAN, 2.0, 1, 1, HUGE_VAL, 6371008.8 }
 
@@ -141,24 +140,24 @@ typedef struct curvewise_dtw_options {
     int metric;
     double p;
     int step_pattern;       /**< curvewise_step_pattern */
-    int open_begin;         /**< not 0: P is matched to a part of Q that may begin anywhere */
+    int open_begin;         /**< not 0: P is matched to a section of Q that may begin anywhere */
     int open_end;           /**< not 0: ... that may end anywhere */
-    ptrdiff_t window;       /**< Sakoe-Chiba band; CURVEWISE_NO_WINDOW for none */
+    ptrdiff_t window;       /**< Sakoe-Chiba band, or CURVEWISE_NO_WINDOW */
     ptrdiff_t workers;      /**< threads, -1 for one per core */
-    int prune;              /**< not 0: leave out what cannot matter of the table */
+    int prune;              /**< not 0: skip cells that cannot affect the result */
     double cutoff;          /**< a value above it becomes infinity */
     double window_fraction; /**< not 0: in place of window, a fraction of the longer curve */
     int normalize;          /**< not 0: divide by the weight of all paths, e.g. n + m */
     double penalty;         /**< of each step that leaves the diagonal */
     double radius;
-    ptrdiff_t relax_p_begin; /**< how many first points of P may be left out */
-    ptrdiff_t relax_p_end;   /**< how many last points of P may be left out */
+    ptrdiff_t relax_p_begin; /**< maximum number of first points of P to omit */
+    ptrdiff_t relax_p_end;   /**< maximum number of last points of P to omit */
     ptrdiff_t relax_q_begin; /**< the same of Q */
     ptrdiff_t relax_q_end;
 } curvewise_dtw_options;
 /** As the window: no band. */
 #define CURVEWISE_NO_WINDOW (-1)
-/** What NULL stands for. */
+/** The options for NULL. */
 #define CURVEWISE_DTW_DEFAULTS                                                                     \
     {                                                                                              \
         CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL, \
@@ -169,7 +168,7 @@ typedef struct curvewise_dtw_options {
 typedef struct curvewise_curve_length_options {
     int scale; /**< curvewise_length_scale */
 } curvewise_curve_length_options;
-/** What NULL stands for. */
+/** The options for NULL. */
 #define CURVEWISE_CURVE_LENGTH_DEFAULTS \
     { CURVEWISE_MEAN }
 
@@ -177,7 +176,7 @@ typedef struct curvewise_curve_length_options {
 typedef struct curvewise_frechet_continuous_options {
     ptrdiff_t workers; /**< threads, -1 for one per core; one pair is searched by one thread */
 } curvewise_frechet_continuous_options;
-/** What NULL stands for. */
+/** The options for NULL. */
 #define CURVEWISE_FRECHET_CONTINUOUS_DEFAULTS \
     { 1 }
 
@@ -227,7 +226,7 @@ typedef struct curvewise_batch_options {
     ptrdiff_t workers; /**< threads, -1 for one per core; the measure's own are not used */
     double cutoff;     /**< a value above it becomes infinity, which may save its computation */
 } curvewise_batch_options;
-/** What NULL stands for. */
+/** The options for NULL. */
 #define CURVEWISE_BATCH_DEFAULTS \
     { 1, HUGE_VAL }
 
@@ -254,7 +253,7 @@ typedef struct curvewise_chaboche_voce {
     int backstresses; /**< 0 to 99 */
     int modulus;      /**< curvewise_modulus */
 } curvewise_chaboche_voce;
-/** What NULL stands for. */
+/** The options for NULL. */
 #define CURVEWISE_CHABOCHE_VOCE_DEFAULTS \
     { 2, CURVEWISE_CONSTANT }
 
@@ -264,20 +263,19 @@ typedef struct curvewise_yoshida_uemori {
     int modulus; /**< curvewise_modulus */
     double rtol; /**< the error that the integration may make, relative to CB */
 } curvewise_yoshida_uemori;
-/** What NULL stands for. */
+/** The options for NULL. */
 #define CURVEWISE_YOSHIDA_UEMORI_DEFAULTS \
     { CURVEWISE_SATURATING, CURVEWISE_CONSTANT, 1e-9 }
 
-/** Writes the stress at each of n strains, along which an unloaded point of material is driven, for
- * `count` parameters in the order of materials.hpp: E (Ea, xi), yield, Q, b, C1, gamma1, C2, ...
- * Where `slopes` is not NULL, slopes[i * count + j] becomes the derivative of stress i by
- * parameter j. */
+/** Writes the stress at each of n strains of an initially unloaded material point. It has `count`
+ * parameters in the order of materials.hpp: E (Ea, xi), yield, Q, b, C1, gamma1, C2, ... If
+ * `slopes` is not NULL, slopes[i * count + j] becomes the derivative of stress i by parameter j. */
 CURVEWISE_EXPORT int curvewise_chaboche_voce_stress(const curvewise_chaboche_voce* material,
                                                     const double* parameters, ptrdiff_t count,
                                                     const double* strain, ptrdiff_t n,
                                                     double* stress, double* slopes,
                                                     curvewise_error* error);
-/** Likewise; the parameters are E (Ea, xi), CB, Y, C, K, RSAT, SB, H (C1, C2). */
+/** The same; the parameters are E (Ea, xi), CB, Y, C, K, RSAT, SB, H (C1, C2). */
 CURVEWISE_EXPORT int curvewise_yoshida_uemori_stress(const curvewise_yoshida_uemori* material,
                                                      const double* parameters, ptrdiff_t count,
                                                      const double* strain, ptrdiff_t n,

@@ -1,5 +1,6 @@
 /// \file
-/// How alike two curves are: everything curvewise offers to C++, except the Eigen adaptors.
+/// Measures of the similarity of two curves: everything that curvewise offers to C++, except the
+/// Eigen adaptors.
 #pragma once
 
 #include "curvewise/build_info.hpp"

@@ -4,12 +4,12 @@
 ///     c[0, 0] = d(P_0, Q_0)
 ///     c[i, j] = min(min(c[i-1, j], c[i, j-1]) + d, c[i-1, j-1] + w d),   d = d(P_i, Q_j)
 ///
-/// w = 1 for symmetric1, 2 for symmetric2 (Sakoe & Chiba 1978); step_pattern.hpp has others, and
-/// recurrence.hpp what they mean. Exact. Time O(n m); memory O(n + m)
-/// for the distance and the path, 8 n m bytes for the table. Every function throws
-/// std::invalid_argument for a curve that is empty or not finite, for curves of different
-/// dimension, and for options out of range, with a message that says which and where;
-/// std::bad_alloc; and Stopped. Safe from any number of threads.
+/// w = 1 for symmetric1, 2 for symmetric2 (Sakoe & Chiba 1978). step_pattern.hpp has more patterns,
+/// and recurrence.hpp defines them. Exact. Time O(n m); memory O(n + m) for the distance and the
+/// path, 8 n m bytes for the table. Every function throws std::invalid_argument for a curve that is
+/// empty or not finite, for curves of different dimension, and for options out of range. The
+/// message gives the argument and the place. Throws std::bad_alloc and Stopped. Safe from any
+/// number of threads.
 ///
 ///     curvewise::DtwOptions options;
 ///     options.step_pattern = curvewise::StepPattern::symmetric2;
@@ -41,36 +41,36 @@ struct DtwOptions {
 
     GroundDistance ground;
     StepPattern step_pattern = StepPattern::symmetric1;
-    /// In place of `step_pattern`, where there are rows.
+    /// Replaces `step_pattern` if it has rows.
     StepRows own_steps = {};
-    /// What each step costs besides that leaves the diagonal, at least 0.
+    /// Cost added to each step that leaves the diagonal, at least 0.
     double penalty = 0.0;
-    /// Sakoe-Chiba band: |i (m-1) - j (n-1)| <= window (max(n, m) - 1); none where n or m is 1.
+    /// Sakoe-Chiba band: |i (m-1) - j (n-1)| <= window (max(n, m) - 1); no band if n or m is 1.
     std::optional<std::ptrdiff_t> window;
     /// In place of `window`, a fraction between 0 and 1 of the points of the longer curve, cut to a
     /// whole number.
     std::optional<double> window_fraction;
-    /// Subsequence DTW (Müller 2007): P is matched to a part of Q, which may begin, or end,
-    /// anywhere. Without a window, and with symmetric1 without a penalty or a step pattern whose
-    /// paths all have one weight: open_begin needs the weight n. The end is the one where c over
-    /// the weight of paths to it is least, as in R's dtw.
+    /// Subsequence DTW (Müller 2007): P is matched to a section of Q, which may begin, or end,
+    /// anywhere. It excludes windows. It needs symmetric1 without a penalty, or a step pattern
+    /// whose paths all have one weight: open_begin needs the weight n. The end minimises c over the
+    /// weight of the paths to it, as in R's dtw.
     bool open_begin = false;
     bool open_end = false;
-    /// How many points may be left out at the beginning and the end of P, then of Q, as with psi of
-    /// dtaidistance. The least sum over all such paths. With symmetric1 alone, with or without a
-    /// penalty, and without a window, open ends and normalize.
+    /// Maximum number of points to omit at the beginning and the end of P, then of Q, as with psi
+    /// of dtaidistance. The value is the least sum over all such paths. Needs symmetric1, with or
+    /// without a penalty. Excludes a window, open ends and normalize.
     std::array<std::ptrdiff_t, 4> relax = {};
-    /// Divide the distance by the sum of the weights of any path: n + m, n or m, as the step
-    /// pattern has it; not with patterns whose paths differ in it. Paths and tables do not look at
-    /// it.
+    /// Divide the distance by the sum of the weights of any path: n + m, n or m, depending on the
+    /// step pattern. Rejected if paths have different weights. Ignored by dtw_path() and
+    /// dtw_table().
     bool normalize = false;
     /// Threads for this call, -1 for one per core. Never changes a result.
     std::ptrdiff_t workers = 1;
-    /// Whether to leave out what cannot matter of the table. Never changes a result.
+    /// Whether to skip table cells that cannot affect the result. Never changes a result.
     bool prune = true;
-    /// A distance above it becomes infinity, and is found to be so early. At least 0, except with
-    /// own steps of negative weight. Paths and tables do not look at it; batches have one of their
-    /// own besides.
+    /// A larger distance becomes infinity, and its computation ends early. At least 0, except with
+    /// own steps of negative weight. Ignored by dtw_path() and dtw_table(). Batches have an
+    /// additional cutoff.
     double cutoff = std::numeric_limits<double>::infinity();
 
     CURVEWISE_EXPORT bool is_symmetric() const;
@@ -114,7 +114,7 @@ CURVEWISE_EXPORT void dtw_table(const CurveView& P, const CurveView& Q, double* 
 CURVEWISE_EXPORT WarpingInfo dtw_info(const CurveView& P, const CurveView& Q,
                                       const DtwOptions& options = {}, Control* control = nullptr);
 
-/// For code that serves all measures alike (measure.hpp).
+/// For code that treats all measures in the same way (measure.hpp).
 inline double evaluate(const DtwOptions& options, const CurveView& P, const CurveView& Q,
                        Control* control = nullptr) {
     return dtw(P, Q, options, control);

@@ -1,7 +1,7 @@
 /// \file
-/// The edit distances between curves, and weighted dtw: each is one struct of options and the
-/// recurrence that it stands for (recurrence.hpp), with the definitions and defaults of aeon 1.6.
-/// Exact. Time O(n m), memory O(n + m). Errors and threads are as for dtw().
+/// The edit distances between curves, and weighted dtw. Each is a struct of options and its
+/// recurrence (recurrence.hpp), with the definitions and defaults of aeon 1.6. Exact. Time O(n m),
+/// memory O(n + m). Errors and threads are as for dtw().
 ///
 ///     curvewise::MsmOptions options;
 ///     options.cost = 0.5;
@@ -25,7 +25,7 @@
 
 namespace curvewise {
 
-/// What all of them have. Each names besides what its steps cost, in visit_costs().
+/// The common options. Each struct also names the costs of its steps, in visit_costs().
 struct EditOptions {
     static constexpr bool is_planar = false;  ///< for curves of any dimension
     static constexpr bool has_ground = true;  ///< among its options
@@ -34,7 +34,7 @@ struct EditOptions {
     /// As for dtw().
     std::optional<std::ptrdiff_t> window = {};
     std::optional<double> window_fraction = {};
-    /// A distance above it, at least 0, becomes infinity, and may be found to be so early.
+    /// A larger distance becomes infinity, and its computation may end early. At least 0.
     double cutoff = std::numeric_limits<double>::infinity();
 
     static constexpr bool is_symmetric() noexcept { return true; }
@@ -57,9 +57,9 @@ inline constexpr RealNumberRange any_number_range{std::numeric_limits<double>::l
 inline constexpr RealNumberRange least_zero_range{0.0, "give a number >= 0"};
 inline constexpr RealNumberRange threshold_range{0.0, "give a number >= 0, or None"};
 
-/// Edit distance with real penalty (Chen & Ng 2004): a point that is left out costs its distance
-/// from the point whose coordinates are all `gap`. Paths that begin with points left out pay for
-/// all points of that curve, as in aeon.
+/// Edit distance with real penalty (Chen & Ng 2004): a deleted point costs its distance from the
+/// point whose coordinates are all `gap`. Paths that begin with deleted points pay for all points
+/// of that curve, as in aeon.
 struct ErpOptions : EditOptions {
     static constexpr const char* measure = "erp";
     double gap = 0.0;
@@ -81,9 +81,9 @@ struct ErpOptions : EditOptions {
     }
 };
 
-/// Edit distance on real sequences (Chen, Özsu & Oria 2005), over the points of the longer curve:
-/// points at least `epsilon` apart cost 1, as does a point that is left out. Infinity stands for a
-/// quarter of the larger standard deviation of all coordinates of either curve.
+/// Edit distance on real sequences (Chen, Özsu & Oria 2005), over the points of the longer curve.
+/// Points at least `epsilon` apart cost 1, and so does a deleted point. Infinity selects the
+/// default: a quarter of the larger standard deviation of all coordinates of either curve.
 struct EdrOptions : EditOptions {
     static constexpr const char* measure = "edr";
     double epsilon = std::numeric_limits<double>::infinity();
@@ -214,7 +214,7 @@ void visit_options(Options& options, Visit&& visit) {
     visit("cutoff", options.cutoff, cutoff_range);
 }
 
-/// For code that serves all measures alike (measure.hpp).
+/// For code that treats all measures in the same way (measure.hpp).
 template <class Options, class = std::enable_if_t<is_edit_distance<Options>>>
 double evaluate(const Options& options, const CurveView& P, const CurveView& Q,
                 Control* control = nullptr) {

@@ -1,17 +1,17 @@
 /// \file
-/// Eigen matrices as curves, without a copy: rows are points, columns coordinates. Takes whatever
-/// lies in memory (Matrix and Array of either storage order, Map with any strides, Ref, Block,
-/// transpose) and holds double; a vector is a flat list of numbers, one coordinate a point.
+/// Eigen matrices as curves, without a copy: rows are points, columns coordinates. Takes any object
+/// in memory that holds double: Matrix and Array of either storage order, Map with any strides,
+/// Ref, Block, transpose. A vector is a flat list of numbers, one coordinate a point.
 ///
 ///     Eigen::MatrixX2d experiment = ...;
 ///     Eigen::MatrixX2d simulation = ...;
 ///     double value = curvewise::dtw(curvewise::curve_view(experiment),
 ///                                   curvewise::curve_view(simulation));
 ///
-/// What has no memory of its own, a sum or a cast, is evaluated by the caller first, since a view
-/// of a temporary matrix would outlive it: Eigen::MatrixXd Q = points.cast<double>(). Everything is
-/// inline: pointers and strides, no Eigen type, go on to the compiled library, which therefore does
-/// not care with which flags, alignment or version of Eigen its caller is compiled.
+/// The caller must first evaluate an expression without its own memory, such as a sum or a cast,
+/// since a view of a temporary matrix would outlive it: Eigen::MatrixXd Q = points.cast<double>().
+/// Everything is inline. The compiled library receives only pointers and strides, not Eigen types.
+/// So the caller may use any flags, alignment or version of Eigen.
 #pragma once
 
 #include <Eigen/Core>

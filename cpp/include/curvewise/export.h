@@ -1,6 +1,7 @@
-/* CURVEWISE_EXPORT marks what the shared library shows; everything else in it is hidden. Its users
- * define CURVEWISE_SHARED, which the CMake target and the pkg-config file do for them. In a static
- * library nothing is marked: a library that embeds it does not show it to others. C and C++. */
+/* CURVEWISE_EXPORT marks the public symbols of the shared library; all other symbols are hidden.
+ * Its users define CURVEWISE_SHARED; the CMake target and the pkg-config file do so for them. In a
+ * static library nothing is marked: a library that embeds it does not export these symbols. C and
+ * C++. */
 #ifndef CURVEWISE_EXPORT_H
 #define CURVEWISE_EXPORT_H
 

@@ -34,11 +34,11 @@ struct FrechetOptions {
     GroundDistance ground;
     /// Threads for this call, -1 for one per core. Never changes a result.
     std::ptrdiff_t workers = 1;
-    /// Whether to leave out what cannot matter of the table: similar curves then take nearly linear
-    /// time. Never changes a result.
+    /// Whether to skip table cells that cannot affect the result: similar curves then take nearly
+    /// linear time. Never changes a result.
     bool prune = true;
-    /// A distance above it, at least 0, becomes infinity, and is found to be so early. Paths and
-    /// tables do not look at it; batches have one of their own besides.
+    /// A larger distance becomes infinity, and its computation ends early. At least 0. Ignored by
+    /// paths and tables. Batches have an additional cutoff.
     double cutoff = std::numeric_limits<double>::infinity();
 
     static constexpr bool is_symmetric() noexcept { return true; }
@@ -76,7 +76,7 @@ CURVEWISE_EXPORT WarpingInfo frechet_info(const CurveView& P, const CurveView& Q
                                           const FrechetOptions& options = {},
                                           Control* control = nullptr);
 
-/// For code that serves all measures alike (measure.hpp).
+/// For code that treats all measures in the same way (measure.hpp).
 inline double evaluate(const FrechetOptions& options, const CurveView& P, const CurveView& Q,
                        Control* control = nullptr) {
     return frechet(P, Q, options, control);

@@ -1,20 +1,21 @@
 /// \file
-/// The continuous Fréchet distance of two polygonal curves: the shortest leash for two walks along
-/// the curves themselves, at any speeds, never back. Unlike the discrete one it does not depend on
-/// how a curve is sampled: points added on an edge change nothing. Euclidean, in any dimension.
+/// The continuous Fréchet distance of two polygonal curves. Two walkers go along the curves at any
+/// speeds, never back; the distance is the smallest possible maximum of their distance. Unlike the
+/// discrete distance, it does not depend on the sampling of a curve: points added on an edge change
+/// nothing. Euclidean, in any dimension.
 ///
-/// Certified: the value is the least double that is not below the real number, always, however long
-/// or far from the origin the curves are. Every comparison that rounded arithmetic leaves open is
-/// decided in whole numbers. So it does not depend on the order or the direction of the curves, and
-/// it is exactly 0 for curves that differ in points on straight edges alone.
+/// The value is exact: it is always the real number, rounded up to the next double, for curves of
+/// any length and any distance from the origin. Comparisons that rounded arithmetic cannot decide
+/// are made in whole numbers. So the value does not depend on the order or the direction of the
+/// curves. It is exactly 0 for curves that differ only in points on straight edges.
 ///
-/// The free-space diagram of Alt & Godau (1995), searched through as Bringmann, Künnemann & Nusser
-/// (2019) do, by filters and boxes: time about O((n + m) log(n + m)) for curves that are alike,
+/// The algorithm searches the free-space diagram of Alt & Godau (1995) with filters and boxes, as
+/// Bringmann, Künnemann & Nusser (2019) do. Time about O((n + m) log(n + m)) for similar curves,
 /// O(n m log) at worst; memory O(n + m). Throws std::invalid_argument for a curve that is empty or
-/// not finite, and for curves of different dimension; std::bad_alloc; Stopped. Safe from any number
-/// of threads.
+/// not finite, and for curves of different dimension. Throws std::bad_alloc and Stopped. Safe from
+/// any number of threads.
 ///
-///     const double leash = curvewise::frechet_continuous(experiment, simulation);
+///     const double distance = curvewise::frechet_continuous(experiment, simulation);
 ///     if (curvewise::frechet_within(experiment, simulation, 0.1)) std::puts("close enough");
 #pragma once
 
@@ -55,7 +56,7 @@ struct Interval {
     double high = 0.0;
 };
 
-/// The real number rounded up; inf where it is beyond the range of a double.
+/// The real number rounded up; inf if it is beyond the range of a double.
 CURVEWISE_EXPORT double frechet_continuous(const CurveView& P, const CurveView& Q,
                                            const FrechetContinuousOptions& options = {},
                                            Control* control = nullptr);
@@ -67,9 +68,9 @@ CURVEWISE_EXPORT Interval frechet_continuous_bounds(const CurveView& P, const Cu
 
 /// Two walks that attain the distance.
 struct Matching {
-    /// The longest leash between the walks: frechet_continuous(), or, where the rounding of the
-    /// parameters stretches it, the least double that is not below what they need: some units in
-    /// the last place of the longest edge times the number of points.
+    /// The largest distance between the walkers, which is frechet_continuous(). If rounding of the
+    /// parameters increases it, it is the least double that is not below the parameters' distance.
+    /// The increase is some units in the last place of the longest edge times the number of points.
     double distance = 0.0;
     /// Pairs of a parameter of P and one of Q, each a vertex's index plus a fraction of the edge
     /// behind it. Neither ever decreases; the first are 0, the last the indices of the last points;
@@ -77,20 +78,20 @@ struct Matching {
     std::vector<std::array<double, 2>> parameters;
 };
 
-/// Takes the way where the curves are close, as far as the distance leaves a choice. Twice the time
-/// of the distance; memory O(n + m), and sqrt(n) times what a row of the free-space diagram holds
-/// of separate pieces.
+/// Among the matchings within the distance, prefers one that keeps the curves close. Twice the time
+/// of the distance. Memory O(n + m), and sqrt(n) times the number of separate sections in a row of
+/// the free-space diagram.
 CURVEWISE_EXPORT Matching frechet_continuous_path(const CurveView& P, const CurveView& Q,
                                                   const FrechetContinuousOptions& options = {},
                                                   Control* control = nullptr);
 
 /// Whether the continuous distance, or the discrete one of Euclidean distances, is at most
-/// `distance`, a number >= 0: of the real numbers, not of rounded ones. Faster than the distance,
-/// and far faster where curves lie far apart.
+/// `distance`, a number >= 0. The decision is about the real numbers, not about rounded ones.
+/// Faster than the distance, and far faster for curves that lie far apart.
 CURVEWISE_EXPORT bool frechet_within(const CurveView& P, const CurveView& Q, double distance,
                                      bool continuous = true, Control* control = nullptr);
 
-/// For code that serves all measures alike (measure.hpp).
+/// For code that treats all measures in the same way (measure.hpp).
 inline double evaluate(const FrechetContinuousOptions& options, const CurveView& P,
                        const CurveView& Q, Control* control = nullptr) {
     return frechet_continuous(P, Q, options, control);

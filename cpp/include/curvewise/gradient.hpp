@@ -1,15 +1,17 @@
 /// \file
-/// A measure with its derivatives by every coordinate of both curves, for optimisers that follow
-/// gradients: by the chain rule, a model's derivatives by its parameters give those of the measure.
+/// A measure with its derivatives by every coordinate of both curves, for gradient-based
+/// optimisers. By the chain rule, a model's derivatives by its parameters give the derivatives of
+/// the measure.
 ///
-/// Each writes d value / d P(i, c) to by_p[i * dim + c] and d value / d Q(j, c) to by_q[j * dim +
-/// c], where these are not null, and returns the value. Beyond the value (for dtw and frechet: the
-/// path; for soft_dtw see soft_dtw.hpp) it takes O(n + m) time and memory. The warping path, the
-/// coupling, the cuts of the refinement and the order of corners are held as they are, which is
-/// exact wherever they do not change at once (of paths: the envelope theorem). Where they do, at
-/// ties, and where two matched points coincide or a difference is 0, the measure has a kink and no
-/// derivative; what is written there is that of one of the sides, or 0 for the term that vanishes.
-/// Errors are those of the value. Safe from any number of threads.
+/// Each function writes d value / d P(i, c) to by_p[i * dim + c] and d value / d Q(j, c) to by_q[j
+/// * dim + c], if these are not null, and returns the value. Beyond the value (for dtw and frechet:
+/// the path; for soft_dtw see soft_dtw.hpp) it takes O(n + m) time and memory.
+///
+/// The warping path, the coupling, the cuts of the refinement and the order of corners are held
+/// fixed. That is exact wherever small changes do not change them (for paths: the envelope
+/// theorem). The measure has a kink at ties, where two matched points coincide, and where a
+/// difference is 0. There a derivative does not exist; the function writes that of one side, or 0
+/// for the term that vanishes. Errors are those of the value. Safe from any number of threads.
 ///
 ///     std::vector<double> gradient(Q.size() * Q.dim());
 ///     const double value = curvewise::value_and_gradient(curvewise::DtwOptions{}, P, Q,
@@ -32,7 +34,7 @@
 
 namespace curvewise {
 
-/// Where derivatives go; null where they are not wanted.
+/// Output arrays of the derivatives; null if not required.
 struct Gradients {
     double* by_p = nullptr;
     double* by_q = nullptr;
@@ -44,25 +46,25 @@ CURVEWISE_EXPORT double value_and_gradients(const AreaOptions& options, const Cu
                                             const CurveView& Q, const Gradients& out,
                                             Control* control = nullptr);
 
-/// Of one point of each curve alone: those of the pair that decides. At ties of several pairs: of
+/// Only one point of each curve has derivatives: the pair that decides. If several pairs tie, it is
 /// the pair that decides after both curves have been moved by at most 2^-30 of the distance, for
-/// twice the time. Does not look at options.cutoff.
+/// twice the time. Ignores options.cutoff.
 CURVEWISE_EXPORT double value_and_gradients(const FrechetOptions& options, const CurveView& P,
                                             const CurveView& Q, const Gradients& out,
                                             Control* control = nullptr);
 
-/// Of the critical event that decides: two vertices, a vertex and an edge, or two vertices and an
-/// edge. Three times the time of the value; at ties five times, as for frechet.
+/// Derivatives of the critical event that decides: two vertices, a vertex and an edge, or two
+/// vertices and an edge. Three times the time of the value; at ties five times, as for frechet.
 CURVEWISE_EXPORT double value_and_gradients(const FrechetContinuousOptions& options,
                                             const CurveView& P, const CurveView& Q,
                                             const Gradients& out, Control* control = nullptr);
 
-/// Does not look at options.cutoff.
+/// Ignores options.cutoff.
 CURVEWISE_EXPORT double value_and_gradients(const DtwOptions& options, const CurveView& P,
                                             const CurveView& Q, const Gradients& out,
                                             Control* control = nullptr);
 
-/// Of curve_length(): wherever no difference is 0.
+/// Derivatives of curve_length(), which exist wherever no difference is 0.
 CURVEWISE_EXPORT double value_and_gradients(const CurveLengthOptions& options, const CurveView& P,
                                             const CurveView& Q, const Gradients& out,
                                             Control* control = nullptr);
@@ -88,9 +90,10 @@ using DifferentiableMeasure =
     std::variant<AreaOptions, FrechetOptions, DtwOptions, CurveLengthOptions,
                  FrechetContinuousOptions, SoftDtwOptions>;
 
-/// Of the pairs P[k], Q[k], on `workers` threads, -1 for one per core: values[k], and what out[k]
-/// asks for: the value alone where both are null. Results do not depend on the number of threads.
-/// The first error of a pair is thrown once all threads have ended.
+/// Computes values[k] and the requested derivatives out[k] of the pairs P[k], Q[k], on `workers`
+/// threads, -1 for one per core. If both pointers of out[k] are null, only the value is computed.
+/// Results do not depend on the number of threads. The first error of a pair is thrown once all
+/// threads have ended.
 CURVEWISE_EXPORT void values_and_gradients(const DifferentiableMeasure& measure,
                                            const std::vector<CurveView>& P,
                                            const std::vector<CurveView>& Q, double* values,

@@ -1,12 +1,12 @@
 /// \file
-/// The ground distance: how far apart two points are, for dtw and frechet, in any number of
-/// coordinates, or on the sphere. A p below 1, or nan, or a radius that is not above 0 and finite,
-/// makes the function that is given it throw std::invalid_argument.
+/// The ground distance: the distance of two points for dtw and frechet, in any number of
+/// coordinates, or on the sphere. A function throws std::invalid_argument for a p below 1, or nan,
+/// and for a radius that is not positive and finite.
 ///
 ///     curvewise::FrechetOptions options;
 ///     options.ground = {curvewise::Metric::minkowski, 3.0};
 ///
-/// Or a function of one's own, which is asked for some rows of the table at a time:
+/// A custom function can replace the metric. It computes some rows of the table at a time:
 ///
 ///     const curvewise::BlockDistances own = [&](const curvewise::TableBlock& block, double* out) {
 ///         for (std::ptrdiff_t i = 0; i < block.rows; ++i)
@@ -43,7 +43,7 @@ constexpr auto choice_names(Metric /*metric*/) noexcept {
 /// Reference System 1980, Journal of Geodesy 74, 2000).
 inline constexpr double earth_radius = 6371008.8;
 
-/// A part of the table of all pairs of points: those of P are its rows, those of Q its columns.
+/// A part of the table of all pairs of points. Its rows are points of P, its columns points of Q.
 struct TableBlock {
     std::ptrdiff_t first_row;
     std::ptrdiff_t rows;
@@ -51,29 +51,29 @@ struct TableBlock {
     std::ptrdiff_t columns;
 };
 
-/// Writes the distances of a block's pairs, each at least 0 or infinity, to `out`, row by row. It
-/// is called by the thread that made the call, for blocks of at most 264 rows that are some 2^21
-/// pairs or one row, more than once for the same pair where a path is asked for. What it throws
-/// passes through.
+/// Writes the distances of a block's pairs, each at least 0 or infinity, to `out`, row by row. The
+/// thread that made the call calls it, for blocks of at most 264 rows with about 2^21 pairs, or of
+/// one row. For a path, the same pair may be requested more than once. Exceptions pass through.
 using BlockDistances = std::function<void(const TableBlock& block, double* out)>;
 
-/// A metric, with its order, or its radius; or a function of one's own.
+/// A metric, with its order, or its radius; or a custom function.
 struct GroundDistance {
     Metric metric = Metric::euclidean;
     /// The order of minkowski, 1 <= p <= inf; p = 1, 2 and inf are computed as cityblock,
     /// euclidean and chebyshev. Not used by the other metrics.
     double p = 2.0;
-    /// Of the sphere of haversine, above 0; distances are in its unit. Not used by the others.
+    /// Radius of the sphere of haversine, above 0; distances are in its unit. Other metrics ignore
+    /// it.
     double radius = earth_radius;
-    /// In place of the metric where not null: for dtw, frechet, their paths, tables and infos, of a
-    /// single pair, in one thread and without pruning; everything else throws
+    /// If not null, replaces the metric for dtw, frechet, and their paths, tables and infos, of a
+    /// single pair, in one thread and without pruning. All other functions throw
     /// std::invalid_argument. It must outlive the call.
     const BlockDistances* own = nullptr;
 
     /// The number that the metric asks for.
     constexpr double parameter() const noexcept { return metric == Metric::haversine ? radius : p; }
 
-    /// The time that one distance in `dim` coordinates takes, roughly, in that of the fastest.
+    /// The approximate time of one distance in `dim` coordinates, relative to the fastest.
     constexpr double weight(double dim) const noexcept {
         switch (metric) {
             case Metric::euclidean:

@@ -1,6 +1,7 @@
 /// \file
-/// The Hausdorff distance between the points of two curves: how far the point of either is from the
-/// other that is farthest from it. The one measure that does not look at the order of the points.
+/// The Hausdorff distance between the points of two curves: the largest distance of a point of
+/// either curve from the other curve's points. It is the only measure that ignores the order of the
+/// points.
 ///
 ///     max(max over i of min over j of d(P_i, Q_j), max over j of min over i of d(P_i, Q_j))
 ///
@@ -44,7 +45,7 @@ void visit_options(HausdorffOptions& options, Visit&& visit) {
 CURVEWISE_EXPORT double hausdorff(const CurveView& P, const CurveView& Q,
                                   const HausdorffOptions& options = {}, Control* control = nullptr);
 
-/// For code that serves all measures alike (measure.hpp).
+/// For code that treats all measures in the same way (measure.hpp).
 inline double evaluate(const HausdorffOptions& options, const CurveView& P, const CurveView& Q,
                        Control* control = nullptr) {
     return hausdorff(P, Q, options, control);

@@ -1,18 +1,18 @@
 /// \file
-/// The Hausdorff distance between two polygonal curves: how far the point of either is from the
-/// other that is farthest from it, points between the vertices included. hausdorff() compares the
-/// vertices alone. Unlike that it does not depend on how a curve is sampled. Euclidean, in any
-/// dimension.
+/// The Hausdorff distance between two polygonal curves: the largest distance of a point of either
+/// curve from the other curve, points between the vertices included. hausdorff() compares the
+/// vertices alone, so it depends on the sampling of the curves; this distance does not. Euclidean,
+/// in any dimension.
 ///
 ///     max(max over x on P of min over y on Q of |x - y|, max over y of min over x)
 ///
-/// The distance of the points of an edge to one edge of the other curve is convex. The farthest
-/// point of an edge is therefore one of its ends, or a point at which the nearest edge changes:
-/// those are computed, and nothing is sampled. The value differs from the real number by at most
-/// 2^-46 times the largest |coordinate|. Time about O((n + m) log(n + m)) for curves that are
-/// alike, O(n m) at worst; memory O(n + m). Throws std::invalid_argument for a curve that is empty
-/// or not finite, and for curves of different dimension; std::bad_alloc; Stopped. Safe from any
-/// number of threads.
+/// Along an edge, the distance to one edge of the other curve is convex. So the farthest point of
+/// an edge is one of its ends, or a point at which the nearest edge changes. These points are
+/// computed, without sampling. The value differs from the real number by at most 2^-46 times the
+/// largest |coordinate|. Time about O((n + m) log(n + m)) for similar curves, O(n m) at worst;
+/// memory O(n + m). Throws std::invalid_argument for a curve that is empty or not finite, and for
+/// curves of different dimension. Throws std::bad_alloc and Stopped. Safe from any number of
+/// threads.
 ///
 ///     const auto found = curvewise::hausdorff_continuous_points(track, road);
 ///     std::printf("%g at %g\n", found.distance, found.from_p.parameter);
@@ -46,7 +46,7 @@ void visit_options(HausdorffContinuousOptions& options, Visit&& visit) {
     visit("directed", options.directed);
 }
 
-/// The distance, in units of the coordinates; infinity where it is beyond the range of a double.
+/// The distance, in units of the coordinates; infinity if it is beyond the range of a double.
 CURVEWISE_EXPORT double hausdorff_continuous(const CurveView& P, const CurveView& Q,
                                              const HausdorffContinuousOptions& options = {},
                                              Control* control = nullptr);
@@ -54,7 +54,7 @@ CURVEWISE_EXPORT double hausdorff_continuous(const CurveView& P, const CurveView
 /// The point of a curve that is farthest from another curve, and the point of that nearest to it.
 struct FarthestPoint {
     double distance = 0.0;
-    /// Where both are, each the index of a vertex plus a fraction of the edge behind it.
+    /// Places of the two points: the index of a vertex plus a fraction of the edge behind it.
     double parameter = 0.0, nearest = 0.0;
 };
 
@@ -70,7 +70,7 @@ CURVEWISE_EXPORT HausdorffPoints hausdorff_continuous_points(
     const CurveView& P, const CurveView& Q, const HausdorffContinuousOptions& options = {},
     Control* control = nullptr);
 
-/// For code that serves all measures alike (measure.hpp).
+/// For code that treats all measures in the same way (measure.hpp).
 inline double evaluate(const HausdorffContinuousOptions& options, const CurveView& P,
                        const CurveView& Q, Control* control = nullptr) {
     return hausdorff_continuous(P, Q, options, control);

@@ -1,31 +1,33 @@
 /// \file
-/// Points of material: the stress along a path of strain, and its derivatives by every parameter,
-/// for models whose parameters are identified from loops. Uniaxial, driven by strain, independent
-/// of its rate, unloaded at the start; the strain runs monotonically from each value to the next.
+/// Material points: the stress along a path of strain, and its derivatives by every parameter, for
+/// models whose parameters are identified from loops. The models are uniaxial, driven by strain,
+/// independent of its rate, and unloaded at the start. The strain runs monotonically from each
+/// value to the next.
 ///
 /// ChabocheVoce: back stresses X_k and a yield stress that grows or shrinks,
 ///
 ///     |s - sum X_k| <= yield + Q (1 - exp(-b p)),    dX_k = C_k de_p - gamma_k X_k dp
 ///
 /// (Chaboche, Int. J. Plasticity 2, 1986; factors of 2/3 and 3/2 absorbed into the constants). In
-/// one direction of flow everything is a closed form of the plastic strain p; a step is one
-/// equation for p, which a safeguarded Newton iteration solves: exact however long the step is.
+/// one direction of flow, everything is a closed form of the plastic strain p. A step is one
+/// equation for p, which a safeguarded Newton iteration solves. It is exact for steps of any
+/// length.
 ///
-/// YoshidaUemori: a yield surface of constant size that moves inside a bounding surface, which
-/// moves and grows, except while its centre stays within the stagnation surface (Yoshida & Uemori,
-/// Int. J. Plasticity 18, 2002; uniaxial, with the constants of *MAT_125 of LS-DYNA). What has no
-/// closed form is integrated to a stated tolerance.
+/// YoshidaUemori: a yield surface of constant size that moves inside a bounding surface. The
+/// bounding surface moves, and grows except while its centre stays within the stagnation surface
+/// (Yoshida & Uemori, Int. J. Plasticity 18, 2002; uniaxial, with the constants of *MAT_125 of
+/// LS-DYNA). Equations without a closed form are integrated to a stated tolerance.
 ///
-/// Either with a constant modulus or with one that decays with the plastic strain (Yoshida, Uemori
-/// & Fujiwara, Int. J. Plasticity 18, 2002), ds = E(p) de_e with E(p) = E - (E - Ea)(1 - exp(-xi
-/// p)).
+/// Young's modulus is constant or decays with the plastic strain (Yoshida, Uemori & Fujiwara, Int.
+/// J. Plasticity 18, 2002): ds = E(p) de_e with E(p) = E - (E - Ea)(1 - exp(-xi p)).
 ///
-/// Slopes are the derivatives of what is computed, by dual numbers in the same pass; where a step
-/// just reaches the yield surface there is a kink, and they are those of one side.
+/// Derivatives are those of the computed stress, by dual numbers in the same pass. A step that just
+/// reaches the yield surface has a kink; the derivatives there are those of one side.
 ///
-/// Time O(n) (k/8 times that for slopes by k parameters), memory O(1). Throws std::invalid_argument
-/// for strains and parameters that are not finite or make no sense, naming them, and for parameters
-/// with which the stress leaves what the law allows or a slope is not finite; Stopped. Safe from
+/// Time O(n) (k/8 times that for derivatives by k parameters), memory O(1). Throws
+/// std::invalid_argument for invalid strains and parameters, with their names. Strains and
+/// parameters are invalid if they are not finite or out of range. Parameters are also invalid if
+/// the stress leaves the range of the law or a derivative is not finite. Throws Stopped. Safe from
 /// any number of threads.
 ///
 ///     curvewise::ChabocheVoce steel;                       // two back stresses
@@ -45,7 +47,7 @@
 
 namespace curvewise {
 
-/// What Young's modulus does while plastic strain accumulates.
+/// The change of Young's modulus while plastic strain accumulates.
 enum class Modulus {
     constant,  ///< parameter E
     decaying   ///< parameters E, Ea (its limit) and xi (the rate)
@@ -94,7 +96,7 @@ void visit_options(YoshidaUemori& material, Visit&& visit) {
     visit("rtol", material.rtol);
 }
 
-/// One number that a material is given. Units of stress are those of the caller.
+/// One parameter of a material. Units of stress are those of the caller.
 struct MaterialParameter {
     std::string name;
     std::string unit;  ///< "stress" or "-"
@@ -105,8 +107,8 @@ struct MaterialParameter {
 CURVEWISE_EXPORT std::vector<MaterialParameter> material_parameters(const ChabocheVoce& material);
 CURVEWISE_EXPORT std::vector<MaterialParameter> material_parameters(const YoshidaUemori& material);
 
-/// Writes the stress at each of n strains; and, unless null, to slopes[i * k + j] the derivative of
-/// stress i by parameter j, n rows of one number for each of the k parameters.
+/// Writes the stress at each of n strains. Unless `slopes` is null, also writes the derivative of
+/// stress i by parameter j to slopes[i * k + j], in n rows of k numbers for k parameters.
 CURVEWISE_EXPORT void material_stress(const ChabocheVoce& material, const double* parameters,
                                       const double* strain, std::ptrdiff_t n, double* stress,
                                       double* slopes = nullptr, Control* control = nullptr);

@@ -1,6 +1,6 @@
 /// \file
-/// The list of measures. Whoever serves all of them alike (batches, compare, the C interface, a
-/// language binding) goes through it: a measure that is added here is served by all of them.
+/// The list of measures. Code that treats all of them in the same way (batches, compare, the C
+/// interface, a language binding) uses this list: it then includes each measure that is added here.
 ///
 ///     curvewise::for_each_measure([](const auto& defaults) { std::puts(defaults.measure); });
 #pragma once
@@ -45,7 +45,7 @@ void for_each_measure(Visit&& visit) {
     detail::for_each_alternative(static_cast<const Measure*>(nullptr), visit);
 }
 
-/// The measure of P and Q. Throws what the measure's own function throws.
+/// The measure of P and Q. Throws the errors of the measure's own function.
 CURVEWISE_EXPORT double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q,
                                  Control* control = nullptr);
 

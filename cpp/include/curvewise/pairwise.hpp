@@ -1,16 +1,16 @@
 /// \file
 /// One measure between many curves: all pairs of two lists (cdist), all pairs within one (pdist),
-/// or one curve against others as they come (Prepared). What depends on one curve alone, its
-/// checks, its packing for the kernels, its scaling, is done once a curve and not once a pair.
+/// or one curve against others as they come (Prepared). Work that depends on one curve alone (its
+/// checks, its packing for the kernels, its scaling) is done once a curve and not once a pair.
 ///
 ///     const std::vector<curvewise::CurveView> X = ...;
 ///     std::vector<double> distances(X.size() * (X.size() - 1) / 2);
 ///     curvewise::pdist(X, curvewise::DtwOptions{}, distances.data(), {-1});  // on all cores
 ///
-/// Threads take tiles of pairs, the largest pairs first; a pair that is large beside all others is
-/// swept by all threads together. Neither their number nor their order changes a value: each is
-/// what the measure's own function returns for the pair. Memory: packed copies of some of the
-/// curves at a time, some 100 MB at most, or four curves a thread where that is more, and some
+/// Threads take tiles of pairs, the largest pairs first. If a pair is large compared with all
+/// others, all threads sweep it together. Neither their number nor their order changes a value:
+/// each is the result of the measure's own function for the pair. Memory: packed copies of some of
+/// the curves at a time, at most about 100 MB, or four curves a thread if that is more, and some
 /// kilobytes a thread. Curves may be of floats.
 #pragma once
 
@@ -34,25 +34,25 @@ CURVEWISE_EXPORT bool is_symmetric(const Measure& measure);
 struct BatchOptions {
     /// Threads for this call, -1 for one per core. (The `workers` of the measure are not used.)
     std::ptrdiff_t workers = 1;
-    /// A value above it becomes infinity; its pair may be abandoned before its end. At least 0,
-    /// except where the measure may be negative (dtw with own steps of negative weight).
+    /// A larger value becomes infinity; its computation may end early. At least 0, except if the
+    /// measure may be negative (dtw with own steps of negative weight).
     double cutoff = std::numeric_limits<double>::infinity();
 };
 
-/// Writes the measure of XA[i] (as P) and XB[j] (as Q) to out[i * XB.size() + j]. Throws
-/// std::invalid_argument for what the measure refuses, naming the curve (XA[3]), and for curves of
-/// different dimension, before any work; std::bad_alloc; Stopped.
+/// Writes the measure of XA[i] (as P) and XB[j] (as Q) to out[i * XB.size() + j]. Throws before any
+/// work: std::invalid_argument as the measure does, with the name of the curve (XA[3]), and for
+/// curves of different dimension. Throws std::bad_alloc and Stopped.
 CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
                             const Measure& measure, double* out, const BatchOptions& options = {},
                             Control* control = nullptr);
 
-/// The same of one list with itself. Each pair of a symmetric measure is computed once, in the
-/// order (i, j) with i < j, and the diagonal is written without work where it is known to be 0.
+/// The same for one list with itself. Each pair of a symmetric measure is computed once, in the
+/// order (i, j) with i < j. The diagonal is written without work if it is known to be 0.
 CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
                             const BatchOptions& options = {}, Control* control = nullptr);
 
-/// Throws what cdist of these lists would throw before its work, for whoever cuts a batch into
-/// parts: a part cannot say which curve of the whole list is at fault.
+/// Throws the errors that cdist of these lists would throw before its work. For code that cuts a
+/// batch into parts: a part does not have the index of the curve in the whole list.
 CURVEWISE_EXPORT void check_batch(const std::vector<CurveView>& XA,
                                   const std::vector<CurveView>& XB, const Measure& measure,
                                   Control* control = nullptr);
@@ -60,13 +60,13 @@ CURVEWISE_EXPORT void check_batch(const std::vector<CurveView>& XA,
 CURVEWISE_EXPORT void check_batch(const std::vector<CurveView>& X, const Measure& measure,
                                   Control* control = nullptr);
 
-/// Writes the measure of X[i] and X[j] for i < j, row by row, k (k-1) / 2 values: the pair (i, j)
+/// Writes the measure of X[i] and X[j] for i < j, row by row, k (k-1) / 2 values. The pair (i, j)
 /// goes to out[i k - i (i+1) / 2 + j - i - 1]. For symmetric measures only. Throws as cdist does.
 CURVEWISE_EXPORT void pdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
                             const BatchOptions& options = {}, Control* control = nullptr);
 
-/// A curve P, checked, packed and scaled once, to be compared with others. Owns a copy of P. Cheap
-/// to copy, and a move is a copy; may be called from any number of threads.
+/// A curve P, checked, packed and scaled once, for comparison with others. Owns a copy of P. Cheap
+/// to copy, and a move is a copy. Any number of threads may call it.
 class Prepared {
    public:
     CURVEWISE_EXPORT Prepared(const CurveView& P, const Measure& measure,

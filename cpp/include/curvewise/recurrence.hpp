@@ -4,12 +4,10 @@
 ///
 ///     c[i, j] = min over steps of  c[i - rows, j - columns] + constant + sum of weight x term
 ///
-/// Weights may be negative. A step is infinite if one of its terms is, whatever that term's weight.
-/// A term of weight 0 takes no part.
-///
-/// added up in this order. What a term is, CostFrom says. The value is c in the last cell, or
-/// where a path with free ends ends, divided as Per says. Time O(n m) times the number of terms;
-/// memory O(n + m) for a value, O((n + m) log n) for a path.
+/// The terms are added in this order; CostFrom defines them. Weights may be negative. A step is
+/// infinite if one of its terms is, whatever that term's weight. A term of weight 0 is ignored. The
+/// value is c in the last cell, or at the end of a path with free ends, divided as Per defines.
+/// Time O(n m) times the number of terms; memory O(n + m) for a value, O((n + m) log n) for a path.
 #pragma once
 
 #include <cstddef>
@@ -27,10 +25,10 @@
 
 namespace curvewise {
 
-/// What a step adds for a cell that lies some rows and columns behind its end.
+/// The cost that a step adds for a cell that lies some rows and columns behind its end.
 enum class CostFrom {
     pair,         ///< the cost of the two points, see PairCost
-    row_gap,      ///< what leaving out the row's point of P costs, see Gaps
+    row_gap,      ///< cost of deleting the row's point of P, see Gaps
     column_gap,   ///< the same of the column's point of Q
     offset,       ///< |i - j|
     row_move,     ///< msm: how far x_i lies outside of the interval from x_{i-1} to y_j
@@ -40,7 +38,7 @@ enum class CostFrom {
 struct StepTerm {
     int rows;  ///< behind the end of the step
     int columns;
-    double weight;  ///< 0 where the path visits a cell that costs nothing
+    double weight;  ///< 0 if the path visits a cell that costs nothing
     CostFrom from = CostFrom::pair;
 };
 
@@ -51,22 +49,22 @@ struct Step {
     std::vector<StepTerm> terms;  ///< in the order in which they are added
 };
 
-/// What the pair of points P_i and Q_j costs; d is their ground distance.
+/// The cost of the pair of points P_i and Q_j; d is their ground distance.
 enum class PairCost {
     distance,  ///< d
-    apart,     ///< 1 where d >= threshold, else 0
-    together,  ///< -1 where d <= threshold, else 0
+    apart,     ///< 1 if d >= threshold, else 0
+    together,  ///< -1 if d <= threshold, else 0
     weighted   ///< d / (1 + exp(-steepness (|i - j| - max(n, m) / 2)))
 };
 
-/// What a point that is left out costs.
+/// The cost of a deleted point.
 enum class Gaps {
     none,
-    to_point,    ///< its distance from a point all of whose coordinates are `gap`
+    to_point,    ///< its distance from the point whose coordinates are all `gap`
     to_previous  ///< its distance from the one before, 0 being before the first
 };
 
-/// What lies before the first row and the first column.
+/// The values before the first row and the first column.
 enum class Border {
     none,      ///< paths start at the first cell, with its cost
     zero,      ///< 0
@@ -74,7 +72,7 @@ enum class Border {
     origin     ///< 0 at the corner, else infinity; a point 0 is before the first of each curve
 };
 
-/// What the last cell is divided by.
+/// The divisor of the last cell.
 enum class Per {
     one,
     rows,     ///< n
@@ -84,9 +82,9 @@ enum class Per {
     matches   ///< the value is 1 + c / min(n, m), and not below 0
 };
 
-/// How many points a path may leave out at the beginning and at the end of each curve: it begins in
-/// one of the first cells of the first row or column, with the cost of the cell, and ends in one of
-/// the last cells of the last row or column. For curves of any length `all`.
+/// Maximum number of points that a path may omit at the beginning and at the end of each curve. The
+/// path begins in one of the first cells of the first row or column, with the cost of the cell. It
+/// ends in one of the last cells of the last row or column. `all` means any number.
 struct FreeEnds {
     static constexpr std::ptrdiff_t all = std::numeric_limits<std::ptrdiff_t>::max();
 
@@ -94,8 +92,8 @@ struct FreeEnds {
     std::ptrdiff_t p_end = 0;
     std::ptrdiff_t q_begin = 0;
     std::ptrdiff_t q_end = 0;
-    /// The end is the one where c divided so is least, n and m being the points up to there; of
-    /// equal ones the first in the last row, or else in the last column.
+    /// The end minimises c divided by this divisor; n and m are the points up to the end. Among
+    /// equal ends, the first in the last row wins, or else the first in the last column.
     Per per = Per::one;
 
     constexpr bool are_free() const noexcept {
@@ -108,7 +106,8 @@ struct Recurrence {
     std::vector<Step> steps;  ///< of equal ones the first is taken
     GroundDistance ground;
     PairCost pair = PairCost::distance;
-    double threshold = 0.0;  ///< of `apart` and `together`; none: a quarter of the larger deviation
+    /// of `apart` and `together`; empty: a quarter of the larger deviation
+    double threshold = 0.0;
     double steepness = 0.0;
     Gaps gaps = Gaps::none;
     double gap = 0.0;
@@ -124,13 +123,13 @@ struct Recurrence {
     CURVEWISE_EXPORT bool is_symmetric() const;
 };
 
-/// Throws std::invalid_argument as dtw() does, and for steps that go beyond eight rows or columns,
-/// or whose terms lie outside of them.
+/// Throws std::invalid_argument as dtw() does, and for steps of more than eight rows or columns, or
+/// with terms outside of them.
 CURVEWISE_EXPORT double warp(const Recurrence& recurrence, const CurveView& P, const CurveView& Q,
                              Control* control = nullptr);
-/// The cells that a cheapest path visits, those between the ends of its steps among them. None
-/// where the steps admit no path; where every path is infinite, the cells of one of them. Throws
-/// std::invalid_argument for a table for each coordinate, where there are several paths.
+/// The cells that a cheapest path visits, including those between the ends of its steps. Empty if
+/// the steps admit no path. If every path is infinite, the cells of one of them. Throws
+/// std::invalid_argument for one table per coordinate, because there are then several paths.
 CURVEWISE_EXPORT Alignment warp_path(const Recurrence& recurrence, const CurveView& P,
                                      const CurveView& Q, Control* control = nullptr);
 /// Writes c to out[i * m + j]; infinity outside the window.

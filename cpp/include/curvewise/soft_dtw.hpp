@@ -1,16 +1,16 @@
 /// \file
-/// Soft dynamic time warping (Cuturi & Blondel 2017): dtw with squared Euclidean ground distances
-/// and the smallest of three replaced by a smooth minimum, so that it has a gradient everywhere.
+/// Soft dynamic time warping (Cuturi & Blondel 2017): dtw with squared Euclidean ground distances,
+/// with a smooth minimum instead of the smallest of three, so that it has a gradient everywhere.
 ///
 ///     r[i, j] = d + softmin(r[i-1, j-1], r[i-1, j], r[i, j-1]),   d = |P_i - Q_j|^2
 ///     softmin(a, b, c) = -gamma log(exp(-a/gamma) + exp(-b/gamma) + exp(-c/gamma))
 ///
-/// All paths count, each by exp(-cost / gamma); below dtw by at most gamma times the logarithm of
-/// their number, and so below 0 for curves that are alike. As gamma falls it becomes dtw. No
-/// overflow, whatever gamma is: below 2^-900 of the squared distances the value is the limit. Time
-/// O(n m); memory O(n + m), and O(n sqrt(m)) where gradients are asked for (gradient.hpp). Throws
-/// std::invalid_argument for what dtw refuses, and for a gamma that is not finite and above 0;
-/// std::bad_alloc; Stopped. Safe from any number of threads.
+/// All paths count, each by exp(-cost / gamma). The value is below dtw by at most gamma times the
+/// logarithm of their number. So it is below 0 for similar curves. As gamma falls, it approaches
+/// dtw. No gamma overflows: below 2^-900 of the squared distances, the value is the limit. Time O(n
+/// m); memory O(n + m), and O(n sqrt(m)) with gradients (gradient.hpp). Throws
+/// std::invalid_argument as dtw does, and for a gamma that is not positive and finite. Throws
+/// std::bad_alloc and Stopped. Safe from any number of threads.
 ///
 ///     curvewise::SoftDtwOptions options;
 ///     options.gamma = 0.1;
@@ -53,7 +53,7 @@ void visit_options(SoftDtwOptions& options, Visit&& visit) {
 CURVEWISE_EXPORT double soft_dtw(const CurveView& P, const CurveView& Q,
                                  const SoftDtwOptions& options = {}, Control* control = nullptr);
 
-/// For code that serves all measures alike (gradient.hpp).
+/// For code that treats all measures in the same way (gradient.hpp).
 inline double evaluate(const SoftDtwOptions& options, const CurveView& P, const CurveView& Q,
                        Control* control = nullptr) {
     return soft_dtw(P, Q, options, control);

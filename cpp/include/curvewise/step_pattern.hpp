@@ -1,11 +1,10 @@
 /// \file
-/// Step patterns: which steps a warping path takes, and how much each of the cells that a step
-/// visits weighs. A pattern is one row of `step_patterns`: its steps, written as the moves that
-/// make them up, and how moves are weighted. The sets of steps are those of Sakoe & Chiba (1978,
-/// slope constraints P = 0 to 2), Myers, Rabiner & Rosenberg (1980, types I to IV), Rabiner & Juang
-/// ("Fundamentals of Speech Recognition", 1993, section 4.7, their types I to VII and weights a to
-/// d), Itakura's within type III, and Mori et al. (2006), under the names that R's dtw gives them
-/// (Giorgino 2009).
+/// Step patterns: the steps of a warping path, and the weight of each cell that a step visits. A
+/// pattern is one row of `step_patterns`: its steps, written as the moves that make them up, and
+/// the weighting of moves. The names are those of R's dtw (Giorgino 2009). The sets of steps have
+/// five sources: Sakoe & Chiba (1978, slope constraints P = 0 to 2); Myers, Rabiner & Rosenberg
+/// (1980, types I to IV); Rabiner & Juang ("Fundamentals of Speech Recognition", 1993, section 4.7,
+/// their types I to VII and weights a to d); Itakura, within type III; Mori et al. (2006).
 #pragma once
 
 #include <array>
@@ -105,8 +104,8 @@ constexpr auto choice_names(StepPattern /*pattern*/) noexcept {
     return names;
 }
 
-/// A line of a pattern in R's notation: a cell that step `step` visits, so many rows and columns
-/// behind its end. A weight of -1 marks where the step begins.
+/// A line of a pattern in R's notation: a cell that step `step` visits, given by the rows and
+/// columns behind the step's end. A weight of -1 marks where the step begins.
 struct StepRow {
     int step = 0;
     int rows = 0;
@@ -164,10 +163,10 @@ constexpr ParsedSteps parsed(const StepSet& set) noexcept {
     return result;
 }
 
-/// A pattern in R's notation; one of one's own may be made of any rows.
+/// A pattern in R's notation; a custom pattern may have any rows.
 struct StepRows {
     std::vector<StepRow> rows;
-    Per per = Per::one;  ///< `one` where paths differ in their weight
+    Per per = Per::one;  ///< `one` if paths have different weights
 
     /// Whether a cell has a negative weight; distances may then be below 0.
     CURVEWISE_EXPORT bool has_negative_weight() const noexcept;

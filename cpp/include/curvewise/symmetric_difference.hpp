@@ -1,15 +1,15 @@
 /// \file
-/// The area that one of two closed curves in the plane encloses and the other does not: the area of
-/// the symmetric difference of their polygons. A point is inside a curve that goes around it an odd
-/// number of times (the even-odd rule), so that curves may cross themselves and each other. It
-/// depends neither on where a curve begins, nor on its direction, nor on further points on edges.
-/// A point at the end that equals the first one only closes a curve.
+/// The area that exactly one of two closed curves in the plane encloses: the area of the symmetric
+/// difference of their polygons. A point is inside a curve that goes around it an odd number of
+/// times (the even-odd rule), so that curves may cross themselves and each other. The area depends
+/// neither on the first point of a curve, nor on its direction, nor on further points on edges. If
+/// the last point equals the first one, it only closes the curve.
 ///
-/// Between two neighbouring x of points or crossings, the edges do not cross, and the area is the
+/// Between two neighbouring x of points or crossings, the edges do not cross. There the area is the
 /// sum of every second gap between them (the slabs of Shamos & Hoey, 1976). Exact but for rounding.
-/// Symmetric. Time O((n + m + k) a log a), where a edges lie above each other and k times two of
-/// them cross; memory O(n + m + a²). Throws std::invalid_argument for a curve that is not finite,
-/// has no point or other than 2 coordinates; std::bad_alloc; Stopped.
+/// Symmetric. Time O((n + m + k) a log a) if a edges lie above each other and two of them cross k
+/// times; memory O(n + m + a²). Throws std::invalid_argument for a curve that is not finite, has
+/// zero points or not 2 coordinates. Throws std::bad_alloc and Stopped.
 #pragma once
 
 #include "curvewise/control.hpp"

@@ -3,9 +3,8 @@
 //
 //   level 0   the distances of the ends; how far one box reaches beyond the other
 //   level 1   both curves cut into about 8 runs. For each run, the distance of its box to the
-//   nearest
-//             box of the other curve, times its points, added up (dtw); the largest distance
-//             (frechet). The larger result of P's runs and of Q's
+//             nearest box of the other curve, times its points, added up (dtw); the largest
+//             distance (frechet). The larger result of P's runs and of Q's
 //   level 2   the same with about 32 runs
 //   level 3   each point instead of the runs, against about 48 boxes
 //

@@ -1,6 +1,6 @@
-// The continuous Fréchet distance against what is known of it: values by hand, the discrete
-// distance of finely divided curves, and everything that leaves the real number as it is, which
-// must leave the bits as they are; decisions; matchings; the range of doubles; messages.
+// The continuous Fréchet distance against known results: values by hand, and the discrete distance
+// of finely divided curves. Changes that keep the real number must give bitwise identical results.
+// Also decisions; matchings; the range of doubles; messages.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -143,7 +143,7 @@ void check_bounds_by_the_discrete_distance(const Curve& P, const Curve& Q) {
     }
 }
 
-// Whether a leash is not shorter than that of a row, as real numbers.
+// Whether `leash` is not shorter than the distance of a row, as real numbers.
 bool is_held(const Curve& P, const Curve& Q, const std::array<double, 2>& row, double leash) {
     const bool is_at_first = row[0] == std::floor(row[0]);
     const Curve& edges = is_at_first ? Q : P;
@@ -216,8 +216,8 @@ void longer_curves() {
     }
 }
 
-// Curves that differ in their last bits: the leash is shorter than a parameter can be told, and
-// rows may not be moved off a vertex to where the walk is on another edge.
+// Curves that differ in their last bits. The distance is smaller than the resolution of a
+// parameter, and rows must not be moved off a vertex onto another edge of the walk.
 void curves_that_nearly_coincide() {
     const Curve P{{-0.0453304722905159, 0.030887983553111564},
                   {-0.065635706065222621, 0.10309095648117364},
@@ -233,8 +233,9 @@ void curves_that_nearly_coincide() {
     check_matching(Q, P);
 }
 
-// An edge, and the same with a computed point on it: no double says where on the edge that point
-// is, and what is left of the leash when coordinates cancel is not what is left of rounded ones.
+// An edge, and the same edge with a computed point on it. No double gives the exact place of that
+// point on the edge. If coordinates cancel, the exact distance differs from the distance of rounded
+// coordinates.
 void points_computed_on_an_edge() {
     Random random(17);
     for (int round = 0; round < 400; ++round) {
@@ -271,10 +272,10 @@ void a_blind_alley() {
     check_matching(P, Q);
 }
 
-// Curves whose free space has rooms, one for each pair of runs of equal points, between which leash
-// and room stand: squares of distances are d^2 / 2 and a constant, for a table of d. A third of the
-// rooms are walls, and some open at nearly the same leash, so that what opens first is often a
-// blind alley, or a way that begins elsewhere.
+// Curves whose free space has rooms, one for each pair of runs of equal points. The squared
+// distances between the runs are d^2 / 2 and a constant, for a table of d. A third of the rooms are
+// walls. Some rooms open at nearly the same radius, so that the first opening is often a dead end,
+// or a way that begins elsewhere.
 void rooms(std::uint64_t seed) {
     Random random(seed);
     const std::ptrdiff_t height = 4 + random.index(6), width = 3 + random.index(5);
@@ -332,7 +333,7 @@ void ends_of_the_range() {
     const double tiny = 5e-324, huge = 1e300;
     CHECK_EQUAL(frechet_continuous(Curve{{0.0}, {tiny}}, Curve{{tiny}, {tiny}}), tiny);
     CHECK_EQUAL(frechet_continuous(Curve{{0.0}, {tiny}}, Curve{{0.0}, {0.0}, {tiny}}), 0.0);
-    // What is tiny counts beside what is huge.
+    // Tiny coordinates count next to huge ones.
     const Curve R{{huge, 0.0}, {-huge, 0.0}}, S{{huge, 1e-300}, {-huge, 1e-300}};
     CHECK_EQUAL(frechet_continuous(R, S), 1e-300);
     CHECK_EQUAL(frechet_continuous(Curve{{-1.7e308}}, Curve{{1.7e308}}), infinity);

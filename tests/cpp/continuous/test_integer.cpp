@@ -133,9 +133,9 @@ void check_rounded_up(double value, const Integer& factor, const Integer& square
     CHECK(compare(std::nextafter(value, 0.0), factor, square) < 0);
 }
 
-// Coordinates of so many bits that their squares are rounded: of two points, and of an edge and a
-// curve that leaves it for a point beside it, on which side of the radius they are is not seen in
-// doubles.
+// Coordinates with enough bits that their squares are rounded. The cases are two points, and an
+// edge and a curve that leaves it for a nearby point. Doubles cannot decide on which side of the
+// radius they are.
 void distances_are_rounded_up() {
     test::Random random(4);
     for (int round = 0; round < 2000; ++round) {

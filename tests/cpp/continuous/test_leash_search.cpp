@@ -1,8 +1,8 @@
-// The search for the continuous Fréchet distance against plain bisection over decisions, which look
-// at the whole free-space diagram. The curves are made so that the search is led astray: where a
-// walk dies, the way out begins hundreds of rows before, so that what a window around the blockade
-// shows is not the value. frechet_within() decides without a search, and is trusted here. And what
-// a search keeps of its walks.
+// The search for the continuous Fréchet distance against plain bisection over decisions, which use
+// the whole free-space diagram. The curves mislead the search: the way out begins hundreds of rows
+// before the row in which a walk ends. So a window around that row does not show the value.
+// frechet_within() decides without a search, and is trusted here. Also tests the stored walks of a
+// search.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -54,8 +54,8 @@ void check_value(const Curve& P, const Curve& Q) {
     CHECK_EQUAL(frechet_continuous(Q, P), value);
 }
 
-// Heights above a line, made a curve of the plane: the line is short, and not along an axis, so
-// that values are no round numbers.
+// Heights above a line, made a curve of the plane. The line is short, and not along an axis, so
+// that values have many digits.
 Curve along_a_line(const std::vector<double>& heights, Random& random) {
     std::vector<double> values;
     for (const double height : heights) {
@@ -84,12 +84,13 @@ std::vector<double> divided(const std::vector<double>& heights, int parts) {
 
 // P climbs to 3, runs along a plain, falls into a pit of 1.6, climbs to 5, and to 3 again. Q climbs
 // two peaks of 5. A walk that leaves Q's first peak for P's climb to 5 has waited for it at a
-// height of 3 - r or more, and is too far above the pit. One that crosses it while P is at 3 needs
-// a leash of 2, and at no later time a longer one: that is the distance, and the way to it begins
-// `plain` rows before the pit. The search does not know, since no walk with a shorter leash gets
-// there: the ends need 1.2, and P's first climb 1.55 because of the low place behind it.
+// height of at least 3 - r, and is too far above the pit. A walk that crosses it while P is at 3
+// needs a radius of 2, and never a larger one later. So 2 is the distance, and the way to it begins
+// `plain` rows before the pit. The search cannot find that out with a smaller radius: the ends need
+// 1.2, and P's first climb 1.55 because of the low place behind it.
 //
-// Both come from afar, P in steps and Q at once, so that walks from vertex to vertex are of no use.
+// Both curves come from afar, P in steps and Q at once, so that walks from vertex to vertex do not
+// help.
 void corridors_that_part() {
     Random random(21);
     const std::vector<double> approach{-50.0, -40.0, -30.0, -20.0, -10.0};
@@ -137,8 +138,8 @@ void peaks_and_pits() {
     }
 }
 
-// Up and down all the time, so that what is reached of a row is many pieces; and here and there a
-// summit that needs a longer leash than all before.
+// Zigzags, so that the reachable part of a row has many pieces. Here and there, a summit needs a
+// larger radius than all before.
 void zigzags() {
     Random random(23);
     for (int round = 0; round < 12; ++round) {
@@ -173,8 +174,8 @@ double least_from_both_ends(const Curve& P, const Curve& Q) {
     return BothEnds<0>(P, Q, diagram, range, poller).least_within(low);
 }
 
-// Few points: on lattices, where many leashes are equally long, on a line, repeated, alone, back
-// and forth; and noise.
+// Few points: on lattices, where many distances are equal, on a line, repeated, alone, back and
+// forth; and noise.
 void walks_from_both_ends() {
     Random random(24);
     for (int round = 0; round < 600; ++round) {
@@ -192,8 +193,8 @@ void walks_from_both_ends() {
     }
 }
 
-// Noise that a single walk is led astray by: what it reaches grows to be most of the diagram, and
-// the row where it dies says nothing.
+// Noise that misleads a single walk: its reachable part grows to most of the diagram, and the row
+// in which it ends does not help.
 void noise() {
     Random random(25);
     for (int round = 0; round < 12; ++round) {

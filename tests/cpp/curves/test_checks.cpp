@@ -1,4 +1,4 @@
-// The scaling into the safe range, and the message where there is no memory.
+// The scaling into the safe range, and the message if memory runs out.
 #include <cmath>
 #include <cstdint>
 #include <limits>

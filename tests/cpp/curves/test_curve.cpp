@@ -1,5 +1,5 @@
-// CurveView: what a view reads, in every layout that two strides describe, what it is called in
-// messages, and that no measure depends on the layout.
+// CurveView: the points of a view, in every layout that two strides describe; its name in messages;
+// and the independence of all measures from the layout.
 #include <algorithm>
 #include <array>
 #include <cmath>

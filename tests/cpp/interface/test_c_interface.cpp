@@ -1,5 +1,5 @@
-// What the C functions return and say of what they refuse; what they compute, the C and Fortran
-// programs of tests/python/embedding hold against Python.
+// Results and errors of the C functions. The C and Fortran programs of tests/python/embedding
+// compare the values with Python.
 #include <cmath>
 #include <cstdint>
 #include <limits>

@@ -1,5 +1,5 @@
-// What an interface to another language reads off the options: names of choices, and the work by
-// which it decides whether a call is long.
+// The options as an interface to another language reads them: names of choices, and the work that
+// decides whether a call is long.
 #include <string>
 #include <type_traits>
 #include <vector>

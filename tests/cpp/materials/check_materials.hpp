@@ -1,4 +1,4 @@
-// How far stresses and slopes of random materials are from what they should be.
+// The errors of stresses and derivatives of random materials.
 #pragma once
 
 #include <algorithm>
@@ -66,9 +66,9 @@ void add_errors(Errors& errors, const Material& material, const std::vector<doub
     for (std::size_t i = 0; i < n; ++i) {
         errors.stress = std::max(errors.stress, std::abs(stress[i] - fine[i]) / largest(fine));
     }
-    // By steps of two lengths: where they differ, the material begins to yield, or the yield
-    // surface passes the bounding surface's centre, within the difference, which then is no
-    // derivative.
+    // Uses steps of two lengths. If their results differ, the material begins to yield within the
+    // difference, or the yield surface passes the bounding surface's centre. Then the difference
+    // does not approximate a derivative.
     const auto differences = [&](std::size_t j, double relative) {
         const __float128 step = relative * std::max(std::abs(parameters[j]), 1e-3);
         const auto above = moved_stress<Point>(finest(material), parameters, strain, j, step);

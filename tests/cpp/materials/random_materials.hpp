@@ -52,7 +52,7 @@ inline std::vector<double> random_parameters(Generator& generator,
     return found;
 }
 
-// From turn to turn, so many strains in all.
+// From turn to turn, `points` strains in all.
 inline std::vector<double> loop(const std::vector<double>& turns, int points) {
     double length = 0.0, last = 0.0;
     for (const double turn : turns) length += std::abs(turn - last), last = turn;

@@ -1,5 +1,5 @@
-// Points of material: against a textbook's integration, slopes against differences, limits that are
-// known, and what is refused.
+// Material points: against a textbook's integration, derivatives against differences, known limits,
+// and errors.
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -137,8 +137,8 @@ void test_a_decaying_modulus() {
     CHECK_CLOSE(unloaded[0] - unloaded[1], 80.0, 1e-9);
 }
 
-// A strain that is held, or nearly so, keeps the stress. The trial stress of these was behind the
-// yield point by rounding, and the flow to there lost among the rounding of what it is added to.
+// A strain that is constant, or nearly so, keeps the stress. The trial stress of these was behind
+// the yield point by rounding. The flow to there was lost in the rounding of the sum.
 void test_a_held_strain() {
     test::Generator generator(2);
     const auto loops = test::five_loops(50);

@@ -1,9 +1,9 @@
-// Points of material as a textbook has them: rate equations, integrated by small steps of the
-// classical Runge-Kutta method in the strain. Shares no code with the library. A step that begins
-// elastic is cut at the yield point; near the root in the Yoshida-Uemori equation steps shrink with
-// the distance from it, and a step in which the bounding surface's centre leaves the stagnation
-// surface is cut there by bisection. With 10^5 increments along a loop the error is some 1e-9 of
-// the stress.
+// Material points in textbook form: rate equations, integrated by small steps of the classical
+// Runge-Kutta method in the strain. Shares no code with the library. A step that begins elastic is
+// cut at the yield point. Near the root in the Yoshida-Uemori equation, steps shrink with the
+// distance from it. If the bounding surface's centre leaves the stagnation surface in a step,
+// bisection cuts the step there. With 10^5 increments along a loop, the error is about 1e-9 of the
+// stress.
 #pragma once
 
 #include <algorithm>
@@ -73,7 +73,7 @@ class ChabocheVoce {
         for (double& rate : by_p) rate *= p_by_strain;
         return by_p;
     }
-    // Goes on by a strain of this size, of `left` at most; returns what it was.
+    // Continues by a strain of this size, at most `left`; returns the size.
     double flow(double n, double left) {
         state = runge_kutta_4(state, left, [&](const State& y) { return rates(y, n); });
         return left;

@@ -1,4 +1,4 @@
-// What an Index may be asked after it was moved, and by the report of one of its own calls.
+// Calls of an Index after it was moved, and calls by the report of its own calls.
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -37,7 +37,8 @@ void an_index_that_was_moved_from_is_empty() {
     CHECK_EQUAL(first.size(), std::size_t{3});
 }
 
-// A report may ask the index, but not add to it: that would wait for the end of its own call.
+// A report may query the index, but not add to it: adding would wait for the end of the call that
+// reports.
 void a_report_does_not_wait_for_its_own_call() {
     const Curve P = Random(13).curve(2000, 2);
     Index index({P, P}, DtwOptions{});

@@ -1,5 +1,5 @@
-// What an index has of the heap, all its curves in place, beside the points of these: each
-// allocation is counted with what malloc adds to it.
+// The heap memory of an index with all its curves, compared with the points of the curves. Each
+// allocation is counted with malloc's overhead.
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
@@ -31,7 +31,8 @@ void* operator new(std::size_t size) {
 
 void operator delete(void* data) noexcept {
     if (data == nullptr) return;
-    // Hidden from gcc, which takes it for the caller's array and warns of what is in front of that.
+    // Hidden from gcc, which mistakes it for the caller's array and warns of the bytes in front of
+    // it.
     void* volatile given = data;
     std::byte* const block = static_cast<std::byte*>(given) - head;
     held -= taken(*reinterpret_cast<std::size_t*>(block));

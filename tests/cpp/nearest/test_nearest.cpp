@@ -1,5 +1,5 @@
-// The index against all distances and a stable sort, for every measure; runs of a long curve and
-// the mean under dtw against what defines them; how a Control ends a search.
+// The index against all distances and a stable sort, for every measure. Runs of a long curve and
+// the mean under dtw against their definitions. Control ends a search.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,7 +23,7 @@ std::vector<Curve> random_curves(Random& random, std::size_t count, std::ptrdiff
     std::vector<Curve> curves;
     while (curves.size() < count) {
         Curve curve = random.walk(2 + random.index(longest));
-        curve(0, 0) -= 1.0;  // a walk of two points may stand still
+        curve(0, 0) -= 1.0;  // a walk of two points may have zero length
         // Now and then one of the same distances as another.
         curves.push_back(curves.size() % 5 == 4 ? curves[curves.size() - 3] : curve);
     }
@@ -36,7 +36,7 @@ std::vector<Measure> measures() {
     window.window = 5;
     open.open_begin = open.open_end = true;
     squares.ground.metric = Metric::sqeuclidean;
-    // Its distances are below 0, which is no lower bound of them.
+    // Its distances are below 0, so 0 is not a lower bound of them.
     negative.own_steps.rows = {{1, 1, 1, -1}, {1, 0, 0, -1}, {2, 1, 0, -1},
                                {2, 0, 0, 2},  {3, 0, 1, -1}, {3, 0, 0, 2}};
     FrechetOptions chebyshev;
@@ -130,8 +130,8 @@ void bounds_leave_most_pairs_out() {
     }
 }
 
-// The second curve has the smaller bound and is computed first; the first one, whose bound is no
-// smaller than the distance that was found, is as near and comes before it.
+// The second curve has the smaller bound and is computed first. The bound of the first one equals
+// the distance that was found. The first one is as near and comes before it.
 void a_bound_that_is_the_distance_is_looked_at() {
     const Curve query{{0, 0}}, first{{5, 0}}, second{{0, 0}, {3, 4}, {0, 0}};
     const Index index({first, second}, FrechetOptions{});
@@ -176,7 +176,7 @@ void refusals_name_the_curve() {
                  "n_neighbors is 2; give a whole number from 1 to 1, the curves of the index");
 }
 
-// Without distances where a measure has no faster decision, of all curves of the index, moved.
+// Without distances, for measures without a faster decision; for all curves of the index, moved.
 void radius_neighbors_of_the_index() {
     Random random(7);
     const std::vector<Curve> owned = random_curves(random, 8, 30);
@@ -255,7 +255,7 @@ void of_equal_distances_the_first_run_comes_first() {
     }
 }
 
-// Every run by its definition, in more runs than are looked at together.
+// Every run by its definition, with more runs than are processed together.
 void runs_outside_are_what_each_run_lies_outside() {
     const std::ptrdiff_t n = 7;
     for (const std::ptrdiff_t dim : {1, 2, 3, 4}) {

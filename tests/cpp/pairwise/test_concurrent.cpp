@@ -1,5 +1,5 @@
-// Calls of several threads at once, on the same curves, the same Prepared and the same Index: each
-// returns what it returns alone. ThreadSanitizer sees to the rest (.ci/sanitize threads).
+// Simultaneous calls of several threads, on the same curves, the same Prepared and the same Index:
+// each returns the result of a single call. ThreadSanitizer checks the rest (.ci/sanitize threads).
 #include <cstdint>
 #include <thread>
 #include <vector>
@@ -14,7 +14,7 @@ using namespace curvewise;
 using test::Curve;
 using test::Random;
 
-// Loops that are alike, so that bounds and pruning have something to do, all above 0.
+// Similar loops, so that bounds and pruning have something to do, all above 0.
 std::vector<Curve> curves(std::size_t count) {
     Random random(1);
     std::vector<Curve> found;
@@ -78,7 +78,7 @@ void the_same_values_as_alone() {
     });
 }
 
-// Searches see the index before or after what is added, and nothing between.
+// Searches see the index before or after an addition, and nothing between.
 void searches_while_curves_are_added() {
     const std::vector<Curve> owned = curves(12);
     const std::vector<CurveView> views = views_of(owned);

@@ -126,7 +126,7 @@ void any_number_of_workers() {
     CHECK_EQUAL(dtw(X[0], X[1], options), value);
 }
 
-// So many that threads take several pairs at a time.
+// Enough curves that threads take several pairs at a time.
 void many_small_curves() {
     std::vector<std::ptrdiff_t> sizes;
     for (std::ptrdiff_t k = 0; k < 101; ++k) sizes.push_back(1 + k * k % 7);

@@ -1,7 +1,7 @@
-// Every call on long curves hears that it is to stop, at every stage of it: while curves are read,
-// packed, scaled and refined as well as during the work itself. No test asserts a time. A Control
-// with an interval of 0 is asked at every poll: how often that is, and that each of them can end
-// the call, is what is checked.
+// Every call on long curves can be stopped at every stage: while curves are read, packed, scaled
+// and refined, and during the work itself. No test asserts a time. A Control with an interval of 0
+// is called at every poll. The tests check the number of polls, and that each of them can end the
+// call.
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -48,7 +48,7 @@ bool ends_at(const Call& call, int number) {
     return false;
 }
 
-// At least one poll in every so many points that are read: each of them is read several times.
+// The least number of polls: one in every 2^16 points, and each point is read at least twice.
 constexpr int fewest_polls = 2 * points / (std::ptrdiff_t{1} << 16);
 
 void hears(const std::string& name, const Call& call) {

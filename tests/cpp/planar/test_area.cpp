@@ -44,7 +44,7 @@ void values_by_hand() {
     CHECK_EQUAL(area(flat, above), 6.0);
     CHECK_EQUAL(area(flat, above, {Spacing::distance, Crossing::rearrange, true}), 4.0 + 16.0);
     CHECK_EQUAL(area(flat, flat), 0.0);
-    // A triangle, one of whose sides has no length.
+    // A triangle: one side of the quadrilateral has zero length.
     CHECK_EQUAL(area(Curve{{0.0, 0.0}, {4.0, 0.0}}, Curve{{0.0, 0.0}, {4.0, 3.0}}), 6.0);
     // Not convex: a dart.
     CHECK_EQUAL(area(Curve{{0.0, 0.0}, {4.0, 0.0}}, Curve{{0.0, 4.0}, {1.0, 1.0}}), 4.0);
@@ -248,7 +248,7 @@ void magnitudes() {
             CHECK_EQUAL(scaled.quads[5][2][1], std::ldexp(expected.quads[5][2][1], k));
         }
     }
-    // Where P has no extent nothing is scaled: next to x, Q's y counts for nothing in its length.
+    // If P's extent is zero, nothing is scaled: next to x, Q's y does not count in its length.
     const Curve flat = Curve{{0.0, 0.0}, {4.0, 0.0}}.times_power_of_two(-600);
     const Curve roof = Curve{{0.0, 0.0}, {1.0, 9.0}, {4.0, 0.0}}.times_power_of_two(-600);
     const AreaQuads quads = area_quads(flat, roof, {Spacing::arc_length, Crossing::split});

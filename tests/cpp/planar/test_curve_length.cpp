@@ -113,7 +113,7 @@ void without_length_in_places() {
     CHECK_CLOSE(curve_length(P, flat), norm(step_by_step(P, flat, LengthScale::mean)), 1e-14);
 }
 
-// The ends face each other, not places beside them to rounding.
+// The ends face each other exactly, without a rounding error of their places.
 void ends() {
     Random random(73);
     for (int repeat = 0; repeat < 50; ++repeat) {
@@ -127,7 +127,7 @@ void ends() {
     }
 }
 
-// The value knows no unit.
+// The value does not depend on the unit.
 void magnitudes() {
     Random random(72);
     const Curve P = random.walk(20), Q = random.walk(30);

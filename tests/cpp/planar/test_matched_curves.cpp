@@ -66,8 +66,8 @@ void vertices_and_pieces() {
     check_matched({{0.0, 1.0}, {4.0, 1.0}}, {{0.0, 2.0}, {1.0, 2.0}, {4.0, 2.0}});
 }
 
-// Ten for each width and each height of P's box that it travels; reversals of less than a third
-// are none.
+// Ten for each width and each height of P's box that it travels. Reversals of less than a third do
+// not count.
 void number_of_pieces() {
     const Curve any{{0.0, 0.0}, {1.0, 1.0}};
     CHECK_EQUAL(matched({{3.0, 0.0}, {5.0, 0.0}}, any).ends.size(), std::size_t{10});
@@ -81,8 +81,8 @@ void number_of_pieces() {
     CHECK_EQUAL(matched({{1.0, 1.0}, {1.0, 1.0}}, any).ends.size(), std::size_t{1});
 }
 
-// A reversal between values that are looked at together, of which the first are below it and those
-// behind them above it.
+// A reversal among values that are tested together: the first of them are below it and those behind
+// them above it.
 void a_reversal_among_a_few_values() {
     Curve P(std::vector<double>(42, 0.0), 2);
     for (int i = 0; i < 16; ++i) P(i, 0) = 0.025 * i;

@@ -33,7 +33,7 @@ ArcCurve arc_curve(const Curve& curve) {
     return ArcCurve(points, arc_lengths(points, unpolled));
 }
 
-// The point at arc length u, found anew.
+// The point at arc length u, searched for from the start.
 Point place(const ArcCurve& curve, double u) {
     const std::vector<double>& t = curve.arc_lengths();
     const auto after = std::upper_bound(t.begin(), t.end(), u);
@@ -67,8 +67,8 @@ double smallest_between(const ArcCurve& shorter, const ArcCurve& longer, double 
     return area_at(shorter, longer, 0.5 * (low + high));
 }
 
-// The area is convex as long as no vertex of the shorter curve passes a corner of the longer one:
-// a grid of all the offsets at which one does, and a search in every interval between.
+// The area is convex while no vertex of the shorter curve passes a corner of the longer one. So
+// this tests all offsets at which a vertex passes a corner, and searches every interval between.
 double exact_minimum(const ArcCurve& shorter, const ArcCurve& longer) {
     const double S = shorter.length(), slack = longer.length() - S;
     std::vector<double> offsets{0.0, slack};
@@ -104,7 +104,7 @@ void check_best(const ArcCurve& shorter, const ArcCurve& longer) {
     CHECK(best.area <= exact + 2e-12 * S);
 }
 
-// From a few corners of the longer curve between two offsets of the grid of 200 to none.
+// Zero to a few corners of the longer curve lie between two offsets of the grid of 200.
 void random_curves() {
     Random random(51);
     for (int repeat = 0; repeat < 200; ++repeat) {
@@ -161,7 +161,7 @@ void one_segment() {
     CHECK_CLOSE(best.area, 2.0 * std::hypot(0.2, 0.6), 1e-12);
 }
 
-// Evaluations of the search for all offsets, each of which polls once where curves are short.
+// Evaluations of the search over all offsets. For short curves, each polls once.
 int evaluations(const ArcCurve& shorter, const ArcCurve& longer, const SearchEffort& effort) {
     int polls = 0;
     curvewise::Control control([&](std::int64_t, std::int64_t) { return ++polls < 1'000'000; },
@@ -171,8 +171,8 @@ int evaluations(const ArcCurve& shorter, const ArcCurve& longer, const SearchEff
     return polls;
 }
 
-// Where the value is large beside S, its last bits are all that offsets differ by; and products of
-// lengths overflow.
+// If the value is large compared with S, offsets differ only in the last bits of their values, and
+// products of lengths overflow.
 void curves_far_apart() {
     const ArcCurve p = arc_curve({{0.0, 0.0}, {1.0, 1.0}});
     for (const int exponent : {20, 40, 100, 400, 600, 1000}) {
@@ -185,7 +185,7 @@ void curves_far_apart() {
     }
 }
 
-// Whatever the curves, the search ends; what it then has is no worse than the grid.
+// The search ends for all curves; its result is never worse than the grid's.
 void an_effort_that_ends() {
     std::vector<double> values;
     for (int i = 0; i < 400; ++i) values.insert(values.end(), {static_cast<double>(i % 2), 0.0});

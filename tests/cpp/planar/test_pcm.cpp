@@ -1,5 +1,5 @@
-// Partial curve mapping against section 2.1 of Jekel et al. (2018) followed step by step, with
-// every point looked up anew (textbook_planar.hpp); values by hand; roles, matches and messages.
+// Partial curve mapping against section 2.1 of Jekel et al. (2018) followed step by step, with a
+// new search for every point (textbook_planar.hpp); values by hand; roles, matches and messages.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,7 @@ void values_by_hand() {
     const Curve P{{0.0, 0.0}, {2.0, 4.0}}, Q{{0.0, 4.0}, {2.0, 8.0}};
     CHECK_CLOSE(pcm(P, Q), std::sqrt(2.0), 1e-15);
     CHECK_EQUAL(pcm(P, P), 0.0);
-    // y is not scaled where P has no extent in it.
+    // y is not scaled if P's extent in it is zero.
     const Curve flat{{1.0, 5.0}, {3.0, 5.0}};
     CHECK_EQUAL(pcm(flat, Curve{{1.0, 8.0}, {3.0, 8.0}}), 3.0);
     // P has length 1 and Q length 4, two above: the distance is hypot(2, offset).
@@ -61,7 +61,7 @@ double length_by_box_of(const Curve& P, const Curve& curve) {
     return static_cast<double>(textbook::measured_by_box_of(P, curve).lengths.back());
 }
 
-// A curve against a run of its own vertices, either way round.
+// A curve against a run of its vertices, either way round.
 void a_piece_of_the_other() {
     Random random(62);
     for (int repeat = 0; repeat < 40; ++repeat) {
@@ -128,7 +128,7 @@ void equal_lengths() {
     CHECK(pcm_match(Q, much_longer).maps_p);
 }
 
-// The value knows no unit.
+// The value does not depend on the unit.
 void magnitudes() {
     Random random(64);
     const Curve P = random.walk(20), Q = random.walk(30);
@@ -143,7 +143,8 @@ void magnitudes() {
         CHECK_EQUAL(scaled.points[3][0], std::ldexp(match.points[3][0], k[0]));
         CHECK_EQUAL(scaled.points[3][1], std::ldexp(match.points[3][1], k[1]));
     }
-    // Where P has no extent the unit stays: the same 3 above, be x of the order of 1 or 2^600.
+    // If P's extent is zero, the unit stays: the same 3 above, for x of the order of 1 and of
+    // 2^600.
     for (const int k : {400, 600}) {
         const check::Note note("x times 2^" + std::to_string(k));
         const double end = std::ldexp(1.0, k);
@@ -164,7 +165,7 @@ void beyond_the_range() {
         CHECK_EQUAL(match.points.size(), std::size_t{2});
         CHECK(std::isnan(match.points[1][0]) && std::isnan(match.points[1][1]));
     }
-    // A segment longer than the largest double, of which Q is the first half.
+    // A segment longer than the largest double; Q is its first half.
     const Curve wide{{-1.5e308, 0.0}, {1.5e308, 1.0}}, half{{-1.5e308, 0.0}, {0.0, 0.5}};
     const PcmMatch match = pcm_match(wide, half);
     CHECK_EQUAL(match.value, 0.0);

@@ -64,7 +64,7 @@ void normalizing() {
     const double tiny = std::numeric_limits<double>::denorm_min();
     CHECK_EQUAL(normalized(Curve{{0.0}, {4 * tiny}}, Curve{{2 * tiny}, {tiny}}),
                 (std::vector<double>{0.5, 0.25}));
-    // Where P has no extent nothing is divided, in any magnitude.
+    // If P's extent is zero, nothing is divided, in any magnitude.
     const Curve level{{1e200, 1.0}, {2e200, 1.0}};
     CHECK_CLOSE(normalized(level, Curve{{1e200, 1e190}})[1], 1e190, 1e-15);
     CHECK_CLOSE(normalized(Curve{{1e200}, {1e200}}, Curve{{3e200}})[0], 2e200, 1e-15);

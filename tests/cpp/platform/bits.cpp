@@ -1,11 +1,10 @@
-// One hash of all the bits that a measure returns for many random pairs, a line for every measure
-// and option: what two machines, compilers or instruction sets print is to be the same.
-// .ci/platforms compares what this prints here with what it prints elsewhere. The pairs are made
-// without the mathematical library, so that they are the same everywhere; lines that begin with
-// "libm" have values that are computed with its pow() and log(), which differ between systems in
-// the last bit, and are not promised.
+// Prints one hash of all result bits of a measure for many random pairs, with a line for every
+// measure and option. All machines, compilers and instruction sets should print the same.
+// .ci/platforms compares the output here with the output elsewhere. The pairs are made without the
+// mathematical library, so that they are the same everywhere. Lines that begin with "libm" use its
+// pow() and log(), which differ between systems in the last bit; these values are not guaranteed.
 //
-//   bits [pairs]     1000 pairs a line unless told; CURVEWISE_ISA forces an instruction-set level
+//   bits [pairs]     1000 pairs a line by default; CURVEWISE_ISA forces an instruction-set level
 //   bits levels      the levels that this machine has
 #include <cstdint>
 #include <cstdio>
@@ -57,8 +56,8 @@ Curve walk(Random& random, std::ptrdiff_t n, std::ptrdiff_t dim) {
     return curve;
 }
 
-// Walks, lattice curves with their ties, curves that are alike, and curves beyond the usual range;
-// some of them long enough for pruning.
+// Walks, lattice curves with their ties, similar curves, and curves beyond the usual range; some of
+// them long enough for pruning.
 Pair random_pair(Random& random, std::ptrdiff_t dim) {
     const std::ptrdiff_t most = random.index(40) == 0 ? 1000 : 60;
     const std::ptrdiff_t n = 2 + random.index(most), m = 2 + random.index(most);

@@ -1,6 +1,7 @@
-// For ThreadSanitizer alone, which (gcc 12, clang 14) does not know the two functions by which
-// std::shared_timed_mutex waits until a time of the steady clock, and so takes what such a lock
-// protects for unprotected. Here they are in terms of the functions that it knows.
+// For ThreadSanitizer alone. ThreadSanitizer (gcc 12, clang 14) does not intercept two functions:
+// those with which std::shared_timed_mutex waits until a time of the steady clock. So it reports
+// data that such a lock protects as unprotected. Here the two functions call functions that it
+// intercepts.
 #include <pthread.h>
 
 #include <ctime>

@@ -1,7 +1,7 @@
 // Every call when memory runs out: each of its allocations fails in turn. The call then throws
-// std::bad_alloc, or does without (a thread that cannot be started, say) and has the same value;
-// in either case nothing is leaked, and no other exception is thrown. The global operators new and
-// delete are replaced; Windows has functions of its own for memory that is aligned.
+// std::bad_alloc, or continues without the memory (for example, if a thread cannot be started) and
+// has the same value. In either case nothing is leaked, and no other exception is thrown. The
+// global operators new and delete are replaced; Windows has separate functions for aligned memory.
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
@@ -22,12 +22,12 @@
 
 namespace {
 
-std::atomic<std::int64_t> until_failure{-1};  // allocations; negative: none fails
+std::atomic<std::int64_t> until_failure{-1};  // allocations; negative: all succeed
 std::atomic<std::int64_t> living{0};
 
 void* allocated(std::size_t size, std::size_t alignment) noexcept {
     if (until_failure.load() >= 0 && until_failure.fetch_sub(1) == 0) return nullptr;
-    const std::size_t whole = size > 0 ? size : 1;  // a place of its own for nothing, too
+    const std::size_t whole = size > 0 ? size : 1;  // zero bytes need a distinct place, too
 #ifdef _WIN32
     void* const memory = _aligned_malloc(whole, alignment);
 #else
@@ -122,7 +122,7 @@ struct Pair {
     Curve P, Q;
 };
 
-// Long enough for pruning, and for threads; alike enough for pruning to go on.
+// Long enough for pruning, and for threads; similar enough for pruning to continue.
 Pair long_pair() {
     Random random(8);
     Curve P = random.walk(3000), Q = P.part(0, 2800);
@@ -300,7 +300,7 @@ void from_c() {
     curvewise_batch_options threads = CURVEWISE_BATCH_DEFAULTS;
     threads.workers = 3;
     const curvewise_curve curves[] = {p, q, p, q};
-    // `call` returns a status; `out` is what it writes.
+    // `call` returns a status; it writes `out`.
     double out[80] = {};
     curvewise_error error;
     const auto fails = [&](const std::string& name, const std::function<int()>& call) {

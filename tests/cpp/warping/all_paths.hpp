@@ -1,5 +1,5 @@
-// What the tests of dtw and of the discrete Fréchet distance have in common: a value and its path
-// against all paths, one by one, and the pairs of curves that are short enough for that.
+// Common code of the tests of dtw and of the discrete Fréchet distance: a value and its path
+// against all paths, one by one, and pairs of curves that are short enough for that.
 #pragma once
 
 #include "check.hpp"

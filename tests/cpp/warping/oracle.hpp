@@ -1,8 +1,8 @@
-// The definitions that all tests of DTW and Fréchet compare with: the ground distances, what a path
-// may be and costs, and every warping path there is, one by one (exponential time).
+// The definitions for all tests of DTW and Fréchet: the ground distances, the valid paths and their
+// costs, and a list of every warping path (exponential time).
 //
-// Comparisons are exact. Adding d, or taking the larger of d, is monotone in floating point too,
-// so the smallest of all path sums, each rounded in path order, is what the recurrence computes.
+// Comparisons are exact. Adding d, or taking the larger of d, is monotone in floating point, too.
+// So the recurrence computes the smallest of all path sums, each rounded in path order.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using test::Curve;
 
 using Path = std::vector<std::array<std::int64_t, 2>>;
 
-// Those of coordinates; haversine, the last, has tests of its own.
+// Metrics of coordinates; haversine, the last, has separate tests.
 inline constexpr auto metrics = [] {
     std::array<Metric, choice_names(Metric{}).size() - 1> all{};
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<Metric>(k);
@@ -70,7 +70,7 @@ inline double ground_distance(const GroundDistance& ground, const Curve& P, std:
     return largest * std::pow(powers, 1.0 / ground.p);
 }
 
-// By which power of a factor it grows when both curves do.
+// If both curves are multiplied by a factor, the distance is multiplied by this power of it.
 inline int degree(Metric metric) {
     switch (metric) {
         case Metric::sqeuclidean:

@@ -1,4 +1,5 @@
-// For tests of what is behind dtw and frechet: two curves packed as they are, and problems of them.
+// For tests of the functions inside dtw and frechet: two curves, packed without scaling, and
+// problems of them.
 #pragma once
 
 #include <optional>
@@ -35,7 +36,7 @@ class SweptPair {
         memory_ = {};
         return {*level.kernels, {p_, q_}, recurrence, cost, 2.0, band(), false, 1, poller, memory_};
     }
-    // At the cost by which the library computes a ground distance.
+    // With the cost that the library uses for a ground distance.
     SweepProblem problem(const Level& level, Recurrence recurrence,
                          const GroundDistance& ground = {}, Poller& poller = unpolled) {
         SweepProblem found = problem(level, recurrence,

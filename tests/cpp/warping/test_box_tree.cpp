@@ -1,6 +1,6 @@
-// Box trees against what they stand for: every box holds its points, the distances of boxes bound
-// those of all their points, and the nearest point is as near as the nearest of all. Compared to
-// the bit; half of the data is small integers, where bounds are met with equality.
+// Box trees against their definition: every box holds its points, the distances of boxes bound
+// those of all their points, and the nearest point is as near as the nearest of all. Comparisons
+// are exact. Half of the data is small integers, so that distances reach their bounds.
 #include <algorithm>
 #include <limits>
 #include <vector>

@@ -1,6 +1,6 @@
-// The path among cheap cells against that of the full sweep, value and cells, to the bit, at every
-// instruction-set level of this machine: random pairs, alike and not, every norm, both step
-// patterns, open ends. `test_cheap_cells 100000` is the long run.
+// The path among cheap cells against the path of the full sweep: value and cells must be identical.
+// Tested at every instruction-set level of this machine, with random pairs, similar or not, every
+// norm, both step patterns and open ends. `test_cheap_cells 100000` is the long run.
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
@@ -71,7 +71,7 @@ void random_pairs() {
     }
 }
 
-// What is swept in registers, some rows at a time (narrow_path.hpp): |dx| + |dy| in the plane.
+// The sweep in registers, some rows at a time (narrow_path.hpp): |dx| + |dy| in the plane.
 void random_pairs_in_narrow_tables() {
     Random random(2);
     for (std::ptrdiff_t k = 0; k < pairs / 4; ++k) {

@@ -233,8 +233,8 @@ void magnitudes() {
     CHECK_CLOSE(dtw(Curve{{3e307, -1e308}}, Curve{{0.0, -1.4e308}}), 5e307, 1e-15);
 }
 
-// Both curves times 2^k multiply every ground distance by one power of it, within the range in
-// which curves are computed as they are and beyond.
+// If both curves are multiplied by 2^k, every ground distance is multiplied by a power of it.
+// Tested for curves within the usual range and beyond it, where curves are scaled.
 void degrees() {
     Random random(15);
     const Curve P = random.curve(20, 2), Q = random.curve(30, 2);
@@ -253,7 +253,7 @@ void degrees() {
     }
 }
 
-// Where tables are so large that what cannot matter is left out: curves that are alike.
+// Tables that are large enough for pruning, of similar curves.
 void pruning_changes_nothing() {
     Random random(16);
     const Curve P = test::loops(1300, 2, 2.0, 0.0, true), Q = test::alike(P, 1200, random);

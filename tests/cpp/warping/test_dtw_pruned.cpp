@@ -1,7 +1,8 @@
-// Pruned DTW against the full sweep, value and path, to the bit, at every instruction-set level of
-// this machine, with 1 to 3 threads: random pairs of hard curves, every ground distance with
-// bounds, both step patterns, windows, open ends, cutoffs around the value, coarse curves of one
-// level and of several, paths along the edge of a band. `test_dtw_pruned 100000` is the long run.
+// Pruned DTW against the full sweep: value and path must be identical. Tested at every
+// instruction-set level of this machine, with 1 to 3 threads: random pairs of hard curves, every
+// ground distance with bounds, both step patterns, windows, open ends, cutoffs around the value.
+// Also coarse curves of one level and of several, and paths along the edge of a band.
+// `test_dtw_pruned 100000` is the long run.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -154,9 +155,9 @@ void random_pairs() {
     }
 }
 
-// One curve behind the other by as many points as the window allows, or nearly: the path runs along
-// an edge of the band, diagonally from where one row ends to where the next one does, and hardly
-// anything beside it is live.
+// One curve is behind the other by as many points as the window allows, or nearly. The path runs
+// along an edge of the band, diagonally from the end of a row to the end of the next. Few cells
+// next to it are active.
 void along_the_edge_of_the_band() {
     Random random(6);
     for (std::ptrdiff_t k = 0; k < pairs / 8; ++k) {
@@ -173,9 +174,9 @@ void along_the_edge_of_the_band() {
     }
 }
 
-// The path of cost 0 goes along a run of equal points of Q in the last row of a strip, to the edge
-// of the band there, and enters the next strip by the diagonal behind it, where nothing else is
-// live. Wherever a sweep looks whether a strip is finished, some run ends there.
+// The path of cost 0 runs along equal points of Q in the last row of a strip, to the edge of the
+// band there. It enters the next strip by the diagonal behind it; no other cell there is active. At
+// each place where a sweep tests whether a strip is finished, some run ends.
 void runs_that_end_with_a_strip_and_the_band() {
     constexpr std::ptrdiff_t n = 400, last_of_strip = n / 2 - 1;
     for (std::ptrdiff_t window = 1; window <= 34; ++window) {
@@ -235,8 +236,8 @@ void least_distances_are_bounds() {
     }
 }
 
-// Walks and noise leave nothing to prune; short curves are not worth it; curves that are alike are,
-// and their coarse curves of several levels too.
+// Walks and noise leave nothing to prune, and short curves do not pay. Similar curves do, and so do
+// their coarse curves of several levels.
 void gives_up_where_it_should() {
     Random random(4);
     const auto gives_up = [](const Curve& P, const Curve& Q) {

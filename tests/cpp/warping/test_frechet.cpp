@@ -124,9 +124,9 @@ void magnitudes() {
     CHECK_CLOSE(frechet(Curve{{3e307, -1e308}}, Curve{{0.0, -1.4e308}}), 5e307, 1e-15);
 }
 
-// The first points decide, so that a row of the table that is looked at early has nothing smaller,
-// and its last value, far from the end of P, is not the answer. The table of the Euclidean distance
-// holds squares, and that of the cutoff may be rounded to below that of the distance.
+// The first points decide. So an early row of the table has no smaller values, and its last value,
+// far from the end of P, is not the answer. The table of the Euclidean distance holds squares. The
+// square of the cutoff may be rounded to below the square of the distance.
 void a_cutoff_that_is_the_distance() {
     Random random(25);
     for (int round = 0; round < 40; ++round) {

@@ -1,7 +1,8 @@
-// The pruned Fréchet distance against the full sweep, to the bit, at every instruction-set level of
-// this machine: random pairs of curves of all kinds that make pruning hard (ties, plateaus,
-// repeated points, loops that cross, spirals, one far point, curves of one point), every ground
-// distance with bounds, cutoffs around the value. `test_frechet_pruned 100000` is the long run.
+// The pruned Fréchet distance against the full sweep: values must be identical. Tested at every
+// instruction-set level of this machine, with random pairs of curves of all kinds that make pruning
+// hard: ties, plateaus, repeated points, loops that cross, spirals, one far point, curves of one
+// point. Also every ground distance with bounds, and cutoffs around the value. `test_frechet_pruned
+// 100000` is the long run.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -145,9 +146,9 @@ Curve steps_of_an_ulp(std::ptrdiff_t n, std::ptrdiff_t dim, double base, Random&
     return curve;
 }
 
-// Ground distances that are equal or differ in their last bits, in whole blocks: what is free, what
-// is blocked and what is neither hangs on a bit. Long steps, so that the distance is often above
-// the lower bound and values pass through free blocks.
+// Ground distances that are equal or differ in their last bits, in whole blocks. A single bit
+// decides whether a block is free, blocked or undecided. The steps are long, so that the distance
+// is often above the lower bound and values pass through free blocks.
 void bounds_that_are_met() {
     Random random(3);
     for (std::ptrdiff_t k = 0; k < pairs / 5; ++k) {
@@ -237,8 +238,8 @@ void mazes() {
     }
 }
 
-// A kernel of blocks or boxes is there exactly where a distance has bounds: there is none to call
-// by mistake. Of the Fréchet table, one holds blocks of what has no root.
+// A kernel of blocks or boxes exists exactly where a distance has bounds, so that no wrong one can
+// be called. For the Fréchet table, one kernel holds blocks of distances without their root.
 void kernels_where_there_are_bounds() {
     for (const Level& level : available_levels()) {
         for (const Metric metric : oracle::metrics) {
@@ -255,7 +256,7 @@ void kernels_where_there_are_bounds() {
     }
 }
 
-// On and beside the points where one block ends and the next begins.
+// On and next to the points where one block ends and the next begins.
 void sizes_around_a_block() {
     Random random(2);
     for (const std::ptrdiff_t n : {1, 2, 63, 64, 65, 127, 128, 129, 256, 257}) {
@@ -267,8 +268,8 @@ void sizes_around_a_block() {
     }
 }
 
-// A search counts all of the table where it finds the value, and nothing where it gives up, which
-// may be after a pass over blocks: the full sweep then counts it.
+// A search counts all of the table if it finds the value. It counts nothing if it gives up, even
+// after a pass over blocks: the full sweep then counts it.
 void steps_are_counted_once() {
     Random random(5);
     int late = 0;

@@ -1,5 +1,5 @@
-// Boxes that are kept for a search against those of the tree: what is read back encloses them, to
-// the bit, and is hardly larger, for one curve as for those of several lists put together.
+// The boxes stored for a search against those of the tree. A stored box encloses its box exactly,
+// and is only slightly larger, for one curve and for those of several lists put together.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,5 @@
-// The intervals of one-dimensional curves: with a band those of the points in it, as the band says
-// them; without one as many as there are gaps.
+// The intervals of one-dimensional curves: with a band, the intervals of the points in it; without
+// a band, one interval more than the gaps between the values.
 #include <algorithm>
 #include <vector>
 

@@ -1,5 +1,6 @@
-// Distances of the caller's own: with those of a metric, its values, paths and tables, on both
-// sides of the edges of strips; what is asked for; exceptions; and who refuses them.
+// Custom distances of the caller. With the distances of a metric, they give its values, paths and
+// tables, on both sides of the edges of strips. Also the requested blocks, exceptions, and the
+// functions that reject them.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

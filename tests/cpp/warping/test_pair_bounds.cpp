@@ -1,6 +1,6 @@
-// The bounds of a search, of the discrete measures and of the continuous one: none is above the
-// value as it is computed, to the bit, they rise from level to level only as far as that, and a
-// sweep that leaves out what they show to be dead gives the value, or one that is above the cutoff.
+// The bounds of a search, of the discrete measures and of the continuous one. No bound is above the
+// computed value, and bounds do not rise beyond it from level to level. A sweep that skips the
+// cells that they prune gives the value, or one above the cutoff.
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -91,11 +91,12 @@ void bounds_hold(const Options& options, std::ptrdiff_t dim, Random& random) {
     bounds_hold(options, curves);
 }
 
-// As many points each, moved a little: paths are alike, and the band is as wide in all rows.
+// The same number of points each, moved a little: paths are similar, and the band is equally wide
+// in all rows.
 void bounds_of_lines_hold() {
     Random random(13);
     for (const std::ptrdiff_t n : {9, 16, 47, 120}) {
-        // Squares of the last scale lose digits, beside an end that leaves the scale as it is.
+        // Squares of the last scale lose digits, next to an end that does not change the scale.
         for (const int scale : {0, -530}) {
             const Curve zeros(std::vector<double>(static_cast<std::size_t>(n)), 1);
             std::vector<Curve> curves(4, zeros);

@@ -1,5 +1,5 @@
-// Recurrences as data: values, paths and tables against the recurrence as it is written down, cell
-// by cell, on both sides of the edges of strips; and what is refused.
+// Recurrences as data: values, paths and tables against the recurrence itself, cell by cell, on
+// both sides of the edges of strips; and errors.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -57,7 +57,7 @@ std::vector<double> written_down(const std::vector<Step>& steps, const Curve& P,
     return table;
 }
 
-// Two steps of two rows or columns, one with a cost of its own.
+// Two steps of two rows or columns; one has a cost.
 Recurrence own_recurrence() {
     Recurrence result{"own",
                       {{1, 1, 0.0, {{0, 0, 2.0}}},
@@ -94,7 +94,7 @@ void the_steps_of_dtw_give_its_bits() {
     CHECK_EQUAL(warp(recurrence, P, Q), curvewise::dtw(P, Q));
 }
 
-// They are compiled, and steps add what they have in common once: bits stay those of the rows.
+// They are compiled, and steps add their common terms once: the bits stay those of the rows.
 void all_named_patterns() {
     Random random(6);
     const Curve P = random.curve(61, 2), Q = random.curve(59, 2);
@@ -120,7 +120,7 @@ void named_patterns() {
     CHECK_EQUAL(dtw(P, Q, options), infinity);
 }
 
-// Of steps that admit none; in the place of several parts, each with its own table, too.
+// For steps that admit no path; also for a path found in several parts, each with its own table.
 void a_path_of_an_infinite_value() {
     curvewise::DtwOptions options;
     options.step_pattern = curvewise::StepPattern::rigid;

@@ -1,14 +1,14 @@
-// The kernels' square root against std::sqrt, at every instruction-set level of this machine: 10^7
-// random arguments in its domain (or as many as the first command-line argument says), special
-// ones, and those that are hardest to round, which makes it a proof.
+// The kernels' square root against std::sqrt, at every instruction-set level of this machine. The
+// arguments are 10^7 random ones in its domain (or the number in the first command-line argument),
+// special ones, and those that are hardest to round. The last make it a proof.
 //
-// Before its one rounding the square root is right to about 2^-45 ulp (see square_root.inl.hpp), so
-// that it can only be rounded wrongly where sqrt(x) is that close to the middle between two
-// doubles. With M = 2 sqrt(x) scaled to an integer of 54 bits, x scaled to 2^k X, such a middle is
-// an odd M with M^2 = 2^j X + r, j = 54 or 55 and r small: the middle is r / (2 M) half ulps away.
-// Every such M is a root of r modulo 2^j, of which there are four if r is 1 modulo 8 and none
-// otherwise; they are lifted bit by bit. With all |r| < 2^20, every x whose root is closer than
-// 2^-34 ulp to a middle is tried.
+// Before its one rounding, the square root is right to about 2^-45 ulp (see square_root.inl.hpp).
+// So it can be rounded wrongly only if sqrt(x) is that close to the middle between two doubles.
+// Scale M = 2 sqrt(x) to an integer of 54 bits, and x to 2^k X. Such a middle is an odd M with M^2
+// = 2^j X + r, j = 54 or 55 and r small: the middle is r / (2 M) half ulps away. Every such M is a
+// root of r modulo 2^j. There are four roots if r is 1 modulo 8, and otherwise 0; they are lifted
+// bit by bit. With all |r| < 2^20, the test covers every x whose root is closer than 2^-34 ulp to a
+// middle.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -97,7 +97,7 @@ void append_argument(std::uint64_t M, std::int64_t r, unsigned j, std::vector<do
     // 128-bit arithmetic in two parts: M = high 2^27 + low.
     const std::uint64_t high = M >> 27U, low = M & ((1U << 27U) - 1U);
     const std::uint64_t middle = 2 * high * low;
-    // M^2 - r = high^2 2^54 + middle 2^27 + low^2 - r; what is below 2^54 ends in 2^54 times a
+    // M^2 - r = high^2 2^54 + middle 2^27 + low^2 - r; the part below 2^54 ends in 2^54 times a
     // carry.
     const auto rest = static_cast<std::int64_t>(low * low) - r;
     const auto below = static_cast<std::int64_t>((middle & ((1U << 27U) - 1U)) << 27U) + rest;

@@ -1,10 +1,11 @@
-// The strip sweep against the textbook's table, filled row by row: last row, whole table and paths,
-// to the bit, at every instruction-set level of this machine, in one thread and in several, in
-// registers where that can be, however short the curves, and with diagonals in memory, with
-// paths found in one table and by divide and conquer, and with the columns narrowed to what a path
-// of the given cost may visit. The sizes are those around a SIMD vector of 2, 4 or 8 doubles and
-// around the strips' heights (32 rows with a table, 256 without); half of the data is small
-// integers, so that most cells have equal predecessors. `test_sweep 7` makes a seventh of it.
+// The strip sweep against the textbook's table, filled row by row: last row, whole table and paths
+// must be identical. Tested at every instruction-set level of this machine, in one thread and in
+// several. The sweep runs in registers where possible, for curves of any length, and with diagonals
+// in memory. Paths are found in one table and by divide and conquer. Columns are also narrowed to
+// those that a path of the given cost may visit. The sizes are those around a SIMD vector of 2, 4
+// or 8 doubles and around the strips' heights (32 rows with a table, 256 without). Half of the data
+// is small integers, so that most cells have equal predecessors. `test_sweep 7` makes a seventh of
+// the comparisons.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -101,8 +102,8 @@ class Comparison {
         }
     }
 
-    // Narrowed with the largest cost that leaves the path in, one that leaves more, and one that
-    // leaves nothing; then the path within what was left.
+    // Narrowed with the largest cost that leaves the path in, with one that leaves more, and with
+    // one that leaves nothing; then the path within the remaining columns.
     void check_narrowed(SweepProblem problem) const {
         const LiveColumns band = problem.columns;
         const double value = expected_.cost(P_.size() - 1, Q_.size() - 1);
@@ -155,7 +156,7 @@ class Comparison {
         return oracle::ground_distance(setup_.ground, P_, i, Q_, j);
     }
 
-    // A double behind the table's end must stay as it is.
+    // A double behind the table's end must not change.
     void check_table(const SweepProblem& problem) const {
         std::vector<double> table(static_cast<std::size_t>(P_.size() * Q_.size() + 1), -1.0);
         sweep_table(problem, table.data());
@@ -210,7 +211,7 @@ std::string described(const Setup& setup) {
            (setup.open_begin ? ", open_begin" : "") + ", workers " + std::to_string(setup.workers);
 }
 
-std::ptrdiff_t every = 1;  // comparison of so many is made, of those in one thread
+std::ptrdiff_t every = 1;  // one comparison of `every` is made, among those in one thread
 
 void compare(const Curve& P, const Curve& Q, const Setup& setup) {
     static std::ptrdiff_t count = 0;
@@ -251,7 +252,7 @@ void sizes_around_a_vector() {
     }
 }
 
-// On and beside the rows where one strip ends and the next begins.
+// On and next to the rows where one strip ends and the next begins.
 void sizes_around_a_strip() {
     Random random(2);
     for (const std::ptrdiff_t n : {31, 32, 33, 255, 256, 257, 511, 512, 513}) {
@@ -272,8 +273,8 @@ void sizes_around_a_strip() {
     }
 }
 
-// A band that leaves a strip's first columns behind, enters the next one anywhere, and is steep
-// or flat: the boundary row between strips holds cells outside of it on both sides.
+// A band that leaves a strip's first columns behind, enters the next one anywhere, and is steep or
+// flat. The boundary row between strips then holds cells outside of the band on both sides.
 void bands_across_strips() {
     Random random(3);
     for (const std::ptrdiff_t n : {33, 257, 513}) {

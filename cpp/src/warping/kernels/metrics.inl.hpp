@@ -9,10 +9,9 @@
 //                   power of the factor. Degree 0 is computed on unscaled curves, whatever their
 //                   range, because small differences between large coordinates matter, too
 //   is_norm         whether it is a norm of the differences of coordinates (or its square), and
-//   each
-//                   operation is monotone in floating point. Distances of boxes, computed by the
-//                   same operations, are then exact bounds of the distances of their points. A
-//                   distance that is not a norm has no bounds, and nothing is pruned by them
+//                   each operation is monotone in floating point. Distances of boxes, computed by
+//                   the same operations, are then exact bounds of the distances of their points.
+//                   A distance that is not a norm has no bounds, and nothing is pruned by them
 //   is_absolute_in_one_dimension    whether |difference| replaces it there
 //   is_root         whether it is the root of sqeuclidean, or another function of it that is
 //                   monotone in floating point. A table of largest distances then holds sqeuclidean
@@ -22,15 +21,13 @@
 // and the functions
 //
 //   add, finish     for a norm: add() adds the difference of one coordinate to a sum, in the order
-//   of
-//                   coordinates; finish() makes the distance of the sum. Nothing is fused or
+//                   of coordinates; finish() makes the distance of the sum. Nothing is fused or
 //                   reordered
 //   finish          for another root: the same, given the radius
 //   distance        for the rest: between two points p(c) and q(c), one pair at a time
 //   magnitude       for gradients: a number that grows with the distance and does not overflow
 //   slope           the derivative by coordinate c of the point of Q, times a weight. The points
-//   are
-//                   `at` different places, at.p(c) and at.q(c), and have this magnitude
+//                   are `at` different places, at.p(c) and at.q(c), and have this magnitude
 //
 // A row that lacks a member does not compile, nor does a metric without a row (-Werror=switch).
 
