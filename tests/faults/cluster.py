@@ -72,7 +72,7 @@ def model_of(command: list[str], template: Path, scratch: Path) -> CommandModel:
 
 
 def found_by(model, runs: int, **how) -> Identification:
-    """Search for so many runs."""
+    """Search with that number of runs."""
     return identify(
         model, measured(), BOUNDS, method=TrustRegion(), max_runs=runs, progress=False, **how
     )
@@ -95,7 +95,7 @@ def say(text: str) -> None:
 
 
 def kill_one() -> None:
-    """Have one job killed and queued anew."""
+    """Have one job killed and requeued."""
     while not (jobs := running()):
         time.sleep(0.2)
     slurm("scontrol", "requeue", jobs[0])
@@ -103,7 +103,7 @@ def kill_one() -> None:
 
 
 def kill_one_and_drain() -> None:
-    """Have one job killed and queued anew, then no job begin for 15 seconds."""
+    """Have one job killed and requeued, then no job begin for 15 seconds."""
     kill_one()
     (node,) = slurm("sinfo", "--noheader", "--format=%n")
     time.sleep(10.0)
@@ -173,7 +173,7 @@ def by_dask(model: CommandModel, runs: int, folder: Path) -> Identification:
             walltime="00:05:00",
             job_name="curve",
             job_extra_directives=["--requeue"],
-            job_directives_skip=["--mem"],  # of which the cluster of one node knows nothing
+            job_directives_skip=["--mem"],  # an option that the cluster of one node does not know
             log_directory=folder,
         ) as cluster,
         Client(cluster) as client,

@@ -1,12 +1,13 @@
 """Damaged files of every kind, given to the command line.
 
-Bytes are changed, files are cut short, blocks are zeroed, doubled or dropped, files are empty, or
-hold what another kind of file holds. Curves (csv, xlsx, mat) go to `curvewise compare`, stores (db)
-to `curvewise report`, studies (toml) and what solvers write (frd, dat, abaqus, nodout, elout) to
-`curvewise identify --check`, whose solver copies the file. Every call is a fork of this process and
-either succeeds, or says in lines that begin with "curvewise:" and name the file what is wrong: no
-traceback, no crash, nothing beyond a time limit, no "None", no warning of Python's. Whole files are
-tried first, and must be read. Sentences drawn at random are printed for reading.
+Bytes are changed, files are cut short, blocks are zeroed, doubled or dropped, and files are empty,
+or hold the contents of another kind of file. Curves (csv, xlsx, mat) go to `curvewise compare`,
+stores (db) to `curvewise report`. Studies (toml) and solver output (frd, dat, abaqus, nodout,
+elout) go to `curvewise identify --check`, whose solver copies the file. Every call is a fork of
+this process. It either succeeds, or prints the error in lines that begin with "curvewise:" and name
+the file. There must be no traceback, no crash, no call beyond a time limit, no "None" and no
+warning of Python's. Whole files are tried first, and must be read. Sentences drawn at random are
+printed for reading.
 
     python tests/faults/damaged_files.py [--times 2000] [--seed 1] [--only mat frd] [--sentences 50]
 """
@@ -230,7 +231,7 @@ def study(kind: str, source: Path) -> bytes:
 
 
 def damaged(data: bytes, others: list[bytes], choices: random.Random) -> tuple[str, bytes]:
-    """Return what was done to a file, and its bytes."""
+    """Return the kind of damage to a file, and its bytes."""
     how = choices.choices(
         ["bytes", "cut", "zeroed", "doubled", "dropped", "empty", "another"],
         [40, 20, 12, 12, 12, 1, 3],
@@ -304,7 +305,7 @@ def called(arguments: list[str], folder: Path) -> Outcome:
 
 
 def judged(outcome: Outcome, named: str) -> str:
-    """Return "read", "refused", or what is wrong."""
+    """Return "read", "refused", or the error."""
     if outcome.status == TRACEBACK or "Traceback (most recent" in outcome.said:
         return "traceback"
     if outcome.status == -signal.SIGKILL:

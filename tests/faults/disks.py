@@ -1,9 +1,9 @@
 """A full disk: a search whose store can no longer be written.
 
-It must end with an OSError that names the file. What was written before is whole: with room
-again, the search goes on, runs nothing twice that was kept, and has the bits of one that ran
-through. A file may not grow (RLIMIT_FSIZE) beyond a limit drawn at random; and, where this runs as
-root, a file system of 256 kB is full of other things but for a random rest.
+It must end with an OSError that names the file, and all data written before must be whole. With
+space again, the search continues. It repeats no stored run, and gives the bits of a search without
+interruption. A file may not grow (RLIMIT_FSIZE) beyond a limit drawn at random. If the script runs
+as root, a file system of 256 kB is also filled except for a random rest.
 
     python tests/faults/disks.py [--times 20]
 """
@@ -25,7 +25,7 @@ import numpy as np
 
 from curvewise.calibration import SDRM, Identification, SimulationStore, identify
 
-# Leaves a folder's files so many bytes.
+# Leaves that number of bytes for a folder's files.
 Full = Callable[[Path, int], AbstractContextManager[None]]
 
 X = np.linspace(0.0, 1.0, 25)
@@ -80,7 +80,7 @@ def kept(file: Path) -> int:
 
 
 def tried_once(file: Path, room: int, full: Full, whole: Identification) -> str:
-    """Search on a full disk, then again with room; return "full", "enough", or what is wrong."""
+    """Search on a full disk, then again with space; return "full", "enough", or the error."""
     result = "enough"
     try:
         with full(file.parent, room):

@@ -1,7 +1,7 @@
 """Programs that end, or fork, while other threads are inside a call.
 
-Each program is a Python of its own, whose exit status and output must be what it asks for: no
-hang, no crash, no other value. The moment is drawn at random.
+Each program is a separate Python. Its exit status and output must be the expected ones, without a
+hang, a crash, or another value. The moment is drawn at random.
 
     python tests/faults/endings.py [--times 20]
 """
@@ -85,7 +85,7 @@ STATUS = {"exit": 7, "an exception": 3, "os._exit": 5, "fork": 6, "fork of a poo
 
 
 def ended(program: str, moment: float, size: int) -> tuple[int | None, str]:
-    """Return the exit status, None for a hang, and what was written to standard error."""
+    """Return the exit status (None for a hang), and the text on standard error."""
     command = [sys.executable, "-c", BEGINNING + PROGRAMS[program], str(moment), str(size)]
     try:
         run = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)

@@ -1,7 +1,7 @@
-"""No memory: every kind of call under limits of the address space, from next to nothing up.
+"""No memory: every kind of call with limits of the address space, from almost zero up.
 
-A call must raise MemoryError, or return what it returns otherwise; nothing else may come, and a
-short call after it is right. Linux only: RLIMIT_AS is not kept elsewhere.
+A call must raise MemoryError, or return its usual result, and a short call after it must be right.
+Linux only: RLIMIT_AS has no effect elsewhere.
 
     python tests/faults/memory.py [--limits 40] [--points 200000]
 """
@@ -20,7 +20,7 @@ import numpy as np
 
 import curvewise
 
-# Otherwise glibc keeps what is freed, and room for threads, for the next call.
+# Otherwise glibc keeps freed memory, and memory for threads, for the next call.
 GIVEN_BACK = {
     "MALLOC_ARENA_MAX": "1",
     "MALLOC_MMAP_THRESHOLD_": "8192",
@@ -77,7 +77,7 @@ def address_space() -> int:
 
 
 def limited(call: Callable[[], object], extra: int) -> object:
-    """Return what the call returns with so many more bytes, or MemoryError if it raises that."""
+    """Return the result of the call with that many more bytes, or MemoryError if it raises that."""
     gc.collect()
     unlimited = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (address_space() + extra, unlimited[1]))

@@ -1,10 +1,10 @@
 """Searches that are killed: kill -9, or Ctrl-C, at a random moment, and two processes on one store.
 
-A search with a store is started again until it has run through, and killed each time
-but the last, at a moment drawn from all of its life: while Python starts, while the store is made,
-while a model runs, while a row is written. In the end it must have the bits of a search that was
-left alone; every run that the store held was not made again; the database is whole (SQLite's own
-check); no process is left. Two processes that search with one store, one of them killed, likewise.
+A search with a store is restarted until it has run to its end. Each time but the last, it is killed
+at a random moment of its life: while Python starts, while the store is made, while a model runs,
+while a row is written. In the end it must have the bits of an undisturbed search. It must not
+repeat a stored run, the database must be whole (SQLite's own check), and all processes must have
+ended. The same holds for two processes that search with one store, one of them killed.
 
     python tests/faults/searches.py [--times 20]
 """
@@ -109,7 +109,7 @@ def is_group_left(group: int) -> bool:
 def killed_and_resumed(
     searches: Searches, name: str, number: int, rng: random.Random, kills: int
 ) -> str:
-    """Kill a search `kills` times; return what is wrong in the end, or nothing."""
+    """Kill a search `kills` times; return the error at the end, or nothing."""
     workers = rng.choice([1, 2])
     for _ in range(kills):
         process = searches.started(name, workers=workers)
@@ -139,7 +139,7 @@ def killed_and_resumed(
 
 
 def two_on_one_store(searches: Searches, name: str, rng: random.Random) -> str:
-    """Search twice at once with one store, and kill one of them; return what is wrong."""
+    """Search twice at once with one store, and kill one of them; return the error."""
     both = [searches.started(name) for _ in range(2)]
     time.sleep(rng.uniform(0.0, searches.seconds))
     if rng.randrange(2):

@@ -1,10 +1,10 @@
-"""Stores that are damaged: a byte that is another one, or an end that is missing.
+"""Stores that are damaged: a changed byte, or a missing end.
 
-A study fills a store. Copies of it are damaged, one byte each, every tenth cut off instead, and go
-through the real command line: listed, written as a table, rescued, and, every fifth of them,
-searched with again. Each command must either print what it prints of the whole store, or end with
-status 1 and one sentence that names the file; what is rescued is a part of the whole store. A few
-run as processes of their own; the others within this one, for the sake of time.
+A study fills a store. Copies of it are damaged, one byte each; every tenth is cut off instead. They
+are processed by the real command line: listed, written as a table, rescued, and, every fifth of
+them, used for another search. Each command must either print its output for the whole store, or end
+with status 1 and one sentence that names the file. Rescued data must be a part of the whole store.
+A few commands run as separate processes. The others run within this one, to save time.
 
     python tests/faults/stores.py [--times 400] [--show 10]
 """
@@ -45,7 +45,7 @@ DECK = (
 
 
 def called(arguments: list[str], as_process: bool) -> tuple[int, str, str]:
-    """Return the exit status of a command, what it printed, and its errors."""
+    """Return the exit status of a command, its output, and its errors."""
     if as_process:
         command = [sys.executable, "-m", "curvewise", *arguments]
         run = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -92,14 +92,14 @@ class Trial:
         self.expected = {name: self.answer(name, as_process=False) for name in self.commands}
 
     def answer(self, name: str, as_process: bool) -> tuple[int, str, str]:
-        """Return what a command says, and what it writes."""
+        """Return the output of a command, and its file."""
         self.new.unlink(missing_ok=True)
         status, out, errors = called(self.commands[name], as_process)
         written = self.table.read_text() if name == "table" and status == 0 else ""
         return status, out + written, errors
 
     def wrong(self, name: str, content: bytes, as_process: bool) -> tuple[str, str]:
-        """Damage the store, run a command; return what is wrong, or "", and the sentence."""
+        """Damage the store, run a command; return the error, or "", and the sentence."""
         for file in self.store.parent.glob("study.db*"):
             file.unlink()
         self.store.write_bytes(content)

@@ -1,14 +1,14 @@
-"""Make the mutants of mutants.toml one after the other, and say which the C++ tests catch.
+"""Make the mutants of mutants.toml one after the other, and report which the C++ tests catch.
 
     python tests/mutation/mutate.py                  # all; some minutes
-    python tests/mutation/mutate.py --only pruned    # those whose description or file says so
+    python tests/mutation/mutate.py --only pruned    # those with the word in description or file
 
-Works on a copy of the sources in build/mutants, so nothing here is touched; builds no more than the
-tests that a mutant names, and ends at the first that fails. Before the first mutant the tests must
-pass; one that then takes far longer than it did has caught its mutant, too. A mutant that does not
-compile is an error of the list; one whose text is not in its file exactly once ends the run before
-the first is made. Ends with 1 where one survives. Needs Python 3.11, CMake and Ninja; ccache is
-used if CMAKE_CXX_COMPILER_LAUNCHER says so.
+The script works on a copy of the sources in build/mutants, so nothing here is changed. It builds
+only the tests that a mutant names, and stops at the first that fails. Before the first mutant, the
+tests must pass. If a test takes far longer with a mutant, it has caught the mutant, too. A mutant
+that does not compile is an error of the list. If a mutant's text is not in its file exactly once,
+the run ends before the first mutant. The exit status is 1 if a mutant survives. Needs Python 3.11,
+CMake and Ninja; uses ccache if CMAKE_CXX_COMPILER_LAUNCHER names it.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def misplaced(mutants: list[dict[str, Any]]) -> list[str]:
 
 
 def copy_sources() -> None:
-    """Bring the copy up to date, leaving alone what has not changed, so that little is built."""
+    """Update the copy; unchanged files keep their times, so that little is built."""
     for tree in TREES:
         source = ROOT / tree
         for path in [source] if source.is_file() else sorted(source.rglob("*")):
@@ -86,7 +86,7 @@ def build(tests: list[str], jobs: int) -> str:
 
 
 def run(name: str, limit: float) -> str:
-    """Run a test for so many seconds at most; return how it failed, or nothing."""
+    """Run a test for at most that many seconds; return how it failed, or nothing."""
     program = COPY / "build" / "tests" / "cpp" / f"test_{name}"
     try:
         done = subprocess.run(
@@ -100,7 +100,7 @@ def run(name: str, limit: float) -> str:
 
 
 def time_limits(tests: list[str]) -> dict[str, float]:
-    """Run the tests as they are; say how long each may take of a mutant."""
+    """Run the tests without a mutant; return the time limit for each with one."""
     limits = {}
     for name in tests:
         begun = time.monotonic()

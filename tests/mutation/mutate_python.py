@@ -1,14 +1,15 @@
-"""Mutants of the Python package, a sample of all that cosmic-ray would make, and what catches them.
+"""Mutants of the Python package, a sample of all that cosmic-ray would make, and the tests that
+catch them.
 
     pip install cosmic-ray
     python tests/mutation/mutate_python.py --count 60 --seed 1
 
-Each is made in a copy of the installed package in build/mutants, so nothing here is touched; the
-tests of its module then run in a process that was forked after the imports that take long, and end
-at their first failure. Before the first mutant of a module its tests must pass; where they then
-take far longer than they did, they have caught theirs, too. Operators for `|`, which stands in
-annotations here, are left out, as are mutants that are no Python. What survives is a list to be
-read, not a mark: some mutants change nothing. Ends with 0 whatever survives.
+Each mutant is made in a copy of the installed package in build/mutants, so nothing here is changed.
+The tests of its module then run in a process that was forked after the slow imports, and stop at
+their first failure. Before the first mutant of a module, its tests must pass. If they take far
+longer with a mutant, they have caught it, too. Operators for `|`, which is used in annotations
+here, are skipped, and so are mutants that are not valid Python. The survivors are a list to read,
+not a mark: some mutants change nothing. The exit status is always 0.
 """
 
 from __future__ import annotations
@@ -120,7 +121,7 @@ def copy_package() -> None:
     for name in [name for name in sys.modules if name.startswith("curvewise")]:
         del sys.modules[name]
     sys.path.insert(0, str(COPY))
-    # By their contents: by its time and size, a mutant may be taken for what it was made from.
+    # By their contents: by time and size alone, a mutant may be mistaken for its original.
     by_contents = py_compile.PycInvalidationMode.CHECKED_HASH
     compileall.compile_dir(COPY, quiet=1, invalidation_mode=by_contents)
     sys.dont_write_bytecode = True
@@ -147,7 +148,7 @@ def tests_of(module: str) -> list[str]:
 
 
 def pytest_status(tests: list[str], limit: float) -> int | None:
-    """Run tests in a fork of this process; return pytest's status, or None where time ran out."""
+    """Run tests in a fork of this process; return pytest's status, or None after the time limit."""
     pid = os.fork()
     if pid == 0:
         os.setpgid(0, 0)
@@ -163,14 +164,14 @@ def pytest_status(tests: list[str], limit: float) -> int | None:
         done, status = os.waitpid(pid, os.WNOHANG)
         if done:
             return os.waitstatus_to_exitcode(status)
-        time.sleep(0.02)  # waitpid has no time limit of its own
+        time.sleep(0.02)  # waitpid does not take a time limit
     os.killpg(pid, signal.SIGKILL)
     os.waitpid(pid, 0)
     return None
 
 
 def time_limit(module: str) -> float:
-    """Run a module's tests as it is; say how long they may take of a mutant."""
+    """Run a module's tests without a mutant; return the time limit for each with one."""
     begun = time.monotonic()
     status = pytest_status(tests_of(module), 1200.0)
     if status != 0:
@@ -188,7 +189,7 @@ def verdict(module: str, limit: float) -> str:
 
 
 def is_python(text: str) -> bool:
-    """Tell whether a module can be compiled: a `*` of a signature is no product."""
+    """Tell whether a module can be compiled: a `*` of a signature is not a product."""
     try:
         compile(text, "mutant", "exec")
     except SyntaxError:
@@ -197,7 +198,7 @@ def is_python(text: str) -> bool:
 
 
 def changed_lines(text: str, mutated: str) -> list[str]:
-    """Return what a mutant takes away and what it adds."""
+    """Return the removed and the added text of a mutant."""
     lines = difflib.unified_diff(text.splitlines(), mutated.splitlines(), n=0)
     return [line for line in lines if line[:1] in "+-" and line[:3] not in ("+++", "---")]
 

@@ -1,13 +1,13 @@
-"""What the tests share: the golden data, who runs what, and what is said before it begins.
+"""Common code of the tests: the golden data, the processes, and the header of a run.
 
-Tests that are marked nightly are left out, unless `-m` names the mark or the command names the test
-("file.py::test"): they take long and seldom find what the others do not (tests/README.md lists
-them). The mark takes patterns for the ids of cases; without any it is for all of them. Where they
-are left out, the tests of properties have fewer examples, and those of random curves fewer rounds.
+Tests that are marked nightly are skipped, unless `-m` names the mark or the command names the test
+("file.py::test"). They take long and seldom find more than the others (tests/README.md lists them).
+The mark takes patterns for the ids of cases; without a pattern it covers all of them. If they are
+skipped, the tests of properties have fewer examples, and those of random curves fewer rounds.
 
 The whole suite runs in one process more than there are cores (pytest-xdist). The tests of a file
-stay together, in one process and in their order, so that a fixture of a file is made once; files
-whose tests take seconds each are shared out test by test, and the longest begin first. A run of
+stay together, in one process and in their order, so that a fixture of a file is made once. Files
+whose tests take seconds each are distributed test by test, and the longest begin first. A run of
 named files or tests is one process, as are `pytest -n 0` and `pytest --pdb`.
 """
 
@@ -27,8 +27,9 @@ from hypothesis import settings
 ROOT = Path(__file__).resolve().parents[2]
 DATA = Path(os.environ.get("CURVEWISE_DATA", ROOT.parent / "shared" / "data"))
 
-# What takes longest, to be begun first: what builds the libraries, then what does without them, so
-# that nobody waits for them. And of those, files whose tests share nothing that is long to make.
+# The longest tests, to start first: tests that build the libraries, then tests without them, so
+# that no test waits for the libraries. Among the latter are only files whose tests do not share a
+# long preparation.
 LONGEST_FIRST = (
     "embedding/test_embed.py::test_fetch_content",
     "commands/test_selfcheck.py::test_selfcheck_passes_on_this_machine",
@@ -68,7 +69,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out what is for the night, and begin with what takes longest."""
+    """Skip nightly tests, and begin with the longest."""
     if leaves_out_nightly(config):
         config.hook.pytest_deselected(items=[item for item in items if is_nightly(item)])
         items[:] = [item for item in items if not is_nightly(item)]
@@ -97,7 +98,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
-    """Answer `-n auto`: a process for each core for the whole suite, none for a part of it.
+    """Answer `-n auto`: a process for each core for the whole suite, a single one for a part of it.
 
     And one more: some tests wait, for solvers and signals.
     """
@@ -107,7 +108,7 @@ def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
 
 
 def pytest_report_header(config: pytest.Config) -> list[str]:
-    """Say what a run of the whole suite does, for how long, and what it will leave out."""
+    """Print the scope, the time and the skipped tests of a run of the whole suite."""
     lines = []
     if config.args == config.getini("testpaths"):
         lines.append(
@@ -139,7 +140,7 @@ def ctrl_c_is_heard() -> Iterator[None]:
 
 @pytest.fixture(scope="session")
 def rounds(pytestconfig: pytest.Config) -> Callable[[int], int]:
-    """Return how many of so many random cases a test tries: by day a fifth, as of properties."""
+    """Return how many of `count` random cases a test tries: by day a fifth, as for properties."""
     return lambda count: -(-count // 5) if leaves_out_nightly(pytestconfig) else count
 
 

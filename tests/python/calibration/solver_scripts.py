@@ -1,7 +1,8 @@
-"""What the tests of solvers share: Python scripts in the place of one, and who is still running.
+"""Common code of the tests of solvers: Python scripts that replace a solver, and a test for running
+processes.
 
-Whether processes have ended is told by a named pipe that they hold open: its reader sees the end
-of the file when the last of them is gone, without asking for process ids, which are reused.
+Processes hold a named pipe open. Its reader sees the end of the file when the last of them has
+ended. So the tests need no process ids, which are reused.
 """
 
 from __future__ import annotations
@@ -58,13 +59,13 @@ class Pipe:
         return self._started
 
     def all_gone(self, processes: int) -> bool:
-        """Return whether so many processes have opened the pipe and all are gone."""
+        """Return whether that number of processes has opened the pipe and all have ended."""
         wait_until(self._listen)
         os.close(self._reader)
         return self._started == processes
 
     def _listen(self) -> bool:
-        """Count who has opened the pipe; return whether nobody holds it."""
+        """Count the processes that opened the pipe; return whether all have closed it."""
         try:
             data = os.read(self._reader, 100)
         except BlockingIOError:

@@ -29,7 +29,7 @@ def line(count):
 
 
 def loop(count):
-    """Return a curve that turns twice, at no point of its own that ends a piece."""
+    """Return a curve that turns twice; none of its points ends a piece."""
     x = np.abs(np.mod(np.linspace(0.2, 2.7, count), 2.0) - 1.0)
     return np.column_stack((x, np.sin(np.linspace(0.0, 7.0, count)) + x))
 
@@ -159,7 +159,7 @@ def test_estimates_by_the_measure_scatter_so():
         return optimize.minimize(area, (0.0, 0.0), method="Nelder-Mead", options=options).x
 
     estimates = np.array([fitted() for _ in range(300)])
-    # It finds the nearest valley: those are of a tenth of a deviation.
+    # It finds the nearest local minimum: these have the size of a tenth of a deviation.
     assert estimates.var(axis=0) == pytest.approx(np.ones(2), abs=0.3)
 
 
@@ -207,7 +207,7 @@ def test_white_noise_of_an_area_of_pieces_alone_has_their_scatter():
     assert theirs.covariance == pytest.approx(theirs.correlation.variance * scatter, rel=1e-9)
     points = math.pi / 2.0 * theirs.correlation.variance * theirs.moves.T @ theirs.moves
     assert np.diag(theirs.covariance) != pytest.approx(np.diag(points), rel=0.01)
-    # Algorithm 1 has no pieces, and what goes on alike is no white noise.
+    # Algorithm 1 does not use pieces, and autocorrelated residuals are not white noise.
     plain = estimate(found_by(Criterion("area", spacing="x", crossing="split"), white_test()))
     points = math.pi / 2.0 * plain.correlation.variance * plain.moves.T @ plain.moves
     assert plain.covariance == pytest.approx(points, rel=1e-9)

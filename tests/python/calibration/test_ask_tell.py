@@ -1,4 +1,6 @@
-"""Searches that somebody else drives: what is asked, what may be told when, and the answer."""
+"""Searches that an external loop drives: the requests, the allowed order of answers, and the
+result.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +59,7 @@ def driven(search, order, at_once):
 
 
 def test_a_start_goes_on_while_others_wait_for_their_runs():
-    """By one turn: what it asks then depends on what the others have not been told."""
+    """By one turn: the next requests then depend on the missing answers of the others."""
     search = TrustRegion(starts=3).begin(Problem.of(TEST, BOUNDS))
 
     def told(sets):
@@ -68,11 +70,11 @@ def test_a_start_goes_on_while_others_wait_for_their_runs():
     own, *others = told(search.ask())
     assert len(others) == 2
     after = told([own])
-    assert after  # what it asks for next
+    assert after  # its next requests
     assert not told(after)
     after = told(others[:1])
     assert after
-    assert told(others[1:])  # the first's turn has come, and what is out of the second's is known
+    assert told(others[1:])  # the first's turn has come, and the second's answers are complete
 
 
 @pytest.mark.parametrize("method", EVERY, ids=repr)

@@ -219,7 +219,7 @@ def two_backstresses(parameters):
 
 @pytest.mark.parametrize("method", ["trust-region", "sdrm"])
 def test_ordered_fixed_and_tied_parameters(method):
-    """C1 > C2 at every run, E as it is, gamma1 from C1."""
+    """C1 > C2 at every run, E unchanged, gamma1 from C1."""
     runs = []
 
     def model(parameters):

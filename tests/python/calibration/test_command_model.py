@@ -1,4 +1,4 @@
-"""CommandModel, with small Python scripts in the place of a solver."""
+"""CommandModel, with small Python scripts instead of a solver."""
 
 from __future__ import annotations
 

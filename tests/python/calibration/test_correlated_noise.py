@@ -63,7 +63,9 @@ def test_the_scatter_is_that_of_dense_matrices(first, second, seed):
 @given(st.integers(3, 40), st.integers(0, 2**32 - 1))
 @settings(max_examples=20, deadline=None)
 def test_the_scatter_of_a_median_is_that_of_signs(count, seed):
-    """By arcsines of the autocorrelations; of a matrix that is none of a covariance, its part."""
+    """By arcsines of the autocorrelations; for a matrix that is not a covariance, its positive
+    part.
+    """
     random = np.random.default_rng(seed)
     noise, columns = random.normal(size=count).cumsum(), random.normal(size=(count, 2))
     values, vectors = np.linalg.eigh(circulant(noise, of_median=True))

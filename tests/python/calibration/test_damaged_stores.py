@@ -1,4 +1,4 @@
-"""Damaged stores: every way of reading says so in one sentence, or reads what was written."""
+"""Damaged stores: every read raises an error of one sentence, or returns the stored data."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def rescored(file):
 
 
 def searched(file):
-    """The last of the readers, as it also writes: what is missing is run again."""
+    """The last of the readers, because it also writes: it runs missing runs again."""
     found = identify(Line(), EXPERIMENT, BOUNDS, store=file, **SHORT)
     values = found.history[["a", "b", "value", "failed"]].tolist()
     return found.value, found.parameters, values, found.failures
@@ -72,7 +72,7 @@ def whole(tmp_path_factory):
 
 
 def told(file, content, expected):
-    """Write a damaged store; return what its readers say instead of what they should."""
+    """Write a damaged store; return the wrong results of its readers."""
     for left in file.parent.glob("s.db*"):
         left.unlink()
     file.write_bytes(content)
@@ -94,7 +94,7 @@ def test_another_byte_is_noticed_or_does_not_matter(whole, tmp_path, rounds):
     content, expected = whole
     rng = random.Random(25)
     used = [i for i, byte in enumerate(content) if byte]  # most of a small store is empty
-    # tests/faults/stores.py tries five times as many as the night.
+    # tests/faults/stores.py tries five times the number of the night.
     places = [*rng.sample(used, rounds(60)), *rng.sample(range(len(content)), rounds(20))]
     noticed = 0
     for place in places:
@@ -112,7 +112,7 @@ def test_a_store_that_is_cut_off_is_noticed(whole, tmp_path):
 
 
 def test_what_can_be_read_is_rescued(whole, tmp_path, capsys):
-    """Of a store with a damaged page all runs but those of the page; the search goes on."""
+    """A store with a damaged page keeps all runs but those of the page; the search continues."""
     content, expected = whole
     file, new = tmp_path / "s.db", tmp_path / "new.db"
     kept = []

@@ -1,4 +1,6 @@
-"""The trust region without a model: how the region grows and shrinks, and what it looks at."""
+"""The trust region without a model: how the region grows and shrinks, and its geometry-improving
+steps.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ RULES = Rules(0.2, diff_step=0.02, tol=1e-3, gain=1e-3, maxiter=50)
 
 
 class Scripted(Descent):
-    """A search whose surfaces promise a gain of 1 each time, and whose runs gain what is listed."""
+    """A search whose surrogates predict a gain of 1 each time, and whose runs gain the listed
+    amounts.
+    """
 
     centre = np.zeros(2)  # type: ignore[assignment]
     value = 10.0  # type: ignore[assignment]
@@ -103,7 +107,7 @@ def test_the_region_is_never_more_than_the_bounds():
 
 
 def test_a_region_below_tol_ends_it_once_all_is_known():
-    """A look around makes the region five times what was looked at, of 0.02 at most."""
+    """A geometry-improving step makes the region five times the sampled size, at most 0.02."""
     search = Scripted([-1.0] * 3, replace(RULES, tol=0.1), unknown=1)
     assert finish_of(search).converged
     assert search.radii == pytest.approx([0.2, 0.08, 0.1, 0.04])
@@ -209,7 +213,7 @@ def test_steps_that_fail_again_and_again_go_on_by_the_value() -> None:
     search = Scripted([-1.0] * 7)
     radii = search.radii
     assert finish_of(search).converged
-    assert radii[5] == pytest.approx(RULES.first_radius / 2.0)  # trusted anew after five
+    assert radii[5] == pytest.approx(RULES.first_radius / 2.0)  # trusted again after five
     assert search._by_value
 
 

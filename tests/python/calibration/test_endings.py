@@ -1,4 +1,4 @@
-"""What is said of a search's end besides what its method says."""
+"""The reported end of a search, besides the method's own message."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def test_nothing_is_said_of_simulations_that_have_fewer_points():
 
 
 def test_where_the_distance_is_that_of_the_noise_more_points_would_not_help():
-    """Steps of 0.0141 at a distance of 0.03: of noise of 0.01 in y none decides."""
+    """Steps of 0.0141 at a distance of 0.03: with noise of 0.01 in y, no step decides."""
     noise = np.random.default_rng(0).normal(0.0, 1.0, 101)
     for deviation, deciding in ((1e-3, 100), (0.01, 0)):
         test = line(101)

@@ -120,7 +120,7 @@ def test_ctrl_c_gives_nothing_more_to_an_executor(tmp_path):
         with pytest.raises(KeyboardInterrupt):
             identify(slow, EXPERIMENT, BOUNDS, executor=threads, **KEYWORDS)
         go_on.set()
-        threads.submit(abs, -1).result()  # what was given to it before has ended
+        threads.submit(abs, -1).result()  # earlier work has ended
     assert len(started) == 2
     found = identify(line, EXPERIMENT, BOUNDS, **KEYWORDS)
     assert np.isfinite(found.value)
@@ -128,7 +128,7 @@ def test_ctrl_c_gives_nothing_more_to_an_executor(tmp_path):
 
 @pytest.mark.parametrize("most", [7, 13])
 def test_starts_give_the_same_bits_on_any_number_of_workers(most):
-    """And in any order of arrival; no run is made beside those that count, nor beyond a limit."""
+    """And in any order of arrival; all runs count, and no run exceeds a limit."""
     alone = identify(fragile_line, EXPERIMENT, BOUNDS, max_runs=most, **STARTS)
     assert alone.evaluations == most
     order = np.random.default_rng(2)

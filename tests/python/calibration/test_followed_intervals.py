@@ -1,4 +1,4 @@
-"""Ends of intervals followed along a model: closed forms, bounds, failures, and what is counted."""
+"""Interval ends computed on the model: closed forms, bounds, failures, and counts."""
 
 from __future__ import annotations
 

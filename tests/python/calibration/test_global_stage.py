@@ -82,7 +82,7 @@ NOISE = 0.02
 
 @pytest.mark.parametrize("seed", range(3))
 def test_the_noise_of_a_model_is_estimated_and_smoothed(seed):
-    """And a smooth model has none, so that the surface passes through its runs."""
+    """And a smooth model has no noise, so that the surface passes through its runs."""
     random = np.random.default_rng(seed)
     points, sides = random.random((30, 2)), np.full(40, 5.0)
     smooth = np.sin(points @ random.normal(0.0, 1.0, (2, 40)))

@@ -1,4 +1,4 @@
-"""identify: what it returns, processes, callbacks, limits, and errors."""
+"""identify: its result, processes, callbacks, limits, and errors."""
 
 from __future__ import annotations
 

@@ -104,7 +104,7 @@ def test_thinned_rows_lie_along_the_curve():
 
 @pytest.mark.parametrize("measure", ["area", "dtw"])
 def test_a_thinned_objective_counts_the_same(measure):
-    """The loop of many points weighs beside the other as it did, sum over points or not."""
+    """The loop of many points keeps its weight relative to the other, sum over points or not."""
     x = np.linspace(0.0, 1.0, 4000)
     dense = np.column_stack((x, np.sin(3.0 * x)))
     objective = Objective([dense, TEST], Criterion(measure, weights=[1.0, 5.0]))

@@ -138,7 +138,7 @@ def test_bent_residuals_add_up_to_scipys_robust_sum(loss):
 def test_the_minimum_is_scipys(bounds):
     found = identify(decay, TEST, bounds, method="least-squares", **SQUARES)
     expected = scipys(bounds=bounds)
-    assert found.converged == (bounds is BOUNDS)  # a bound that is in the way is said to be
+    assert found.converged == (bounds is BOUNDS)  # an active bound is reported
     assert found.value == pytest.approx(2.0 * expected.cost, rel=5e-5)
     assert found.evaluations < 60
     widths = np.ptp(list(bounds.values()), axis=1)
@@ -212,7 +212,7 @@ def test_a_solver_that_prints_few_digits(digits):
 
 
 def test_steps_that_gain_nothing_of_what_is_promised_are_no_end():
-    """Residuals that jump about from run to run: no surface foretells them, and that is said."""
+    """Residuals that jump from run to run: no surrogate predicts them, and a message states it."""
 
     def jumping(p):
         curve = decay(p)
@@ -251,7 +251,7 @@ def test_runs_of_another_measure_are_taken_up():
 
 
 class WithSlopes:
-    """The decay with its derivatives, by the parameters as they are given."""
+    """The decay with its derivatives, by the unscaled parameters."""
 
     def __init__(self, wrong=None):
         self.wrong = wrong

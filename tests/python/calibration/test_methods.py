@@ -201,7 +201,7 @@ def test_a_landscape_of_steps_ends(method):
         steps, np.column_stack((x, 3.0 * x)), {"a": (0, 3), "b": (0, 3)}, method=method
     )
     assert found.evaluations < 5000
-    assert found.converged or method == "trust-region"  # most of whose starts cannot move
+    assert found.converged or method == "trust-region"  # most of its starts cannot move
     if method in ("de", "sdrm+de", "trust-region"):
         assert found.value == 0.0
 

@@ -1,4 +1,4 @@
-"""Misspelt names: what is wrong, and what was meant."""
+"""Misspelt names: the error, and the suggested name."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def test_the_near_name_is_offered(keywords, error, message):
     ],
 )
 def test_the_near_option_is_offered(method, options, message):
-    """Of a method as a table, in a study, and of what is passed on."""
+    """Of a method as a table, in a study, and of options that are passed on."""
     with pytest.raises(ValueError, match=message):
         method_with({"name": method.name, **options})
     if "options" in vars(method()):
@@ -73,7 +73,7 @@ NOT_DE = "options has popsize; give it to DifferentialEvolution"
 @pytest.mark.parametrize(
     ("function", "keywords", "message"),
     [
-        # Own options do not stand among those that are passed on.
+        # The list of passed-on options does not contain own options.
         (DifferentialEvolution, {"options": {"mutatin": 1}}, "it has popsize, .*you mean 'mutat"),
         (DifferentialEvolution, {"options": {"popsize": 3}}, NOT_DE),
         # Nothing is offered where nothing is near.

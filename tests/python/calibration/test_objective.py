@@ -133,7 +133,7 @@ def test_failed_simulation_has_a_finite_penalty_and_is_counted(name, measure):
     assert value == objective.failure_value[0]
     assert math.isfinite(value)
     assert objective.failures == 1
-    assert value > 1e4 * objective(OTHER)  # a bad simulation is better than none
+    assert value > 1e4 * objective(OTHER)  # a bad simulation is better than a failed one
 
 
 @pytest.mark.parametrize("measure", FIVE)

@@ -165,7 +165,7 @@ def test_mean_squared_mapped_distances(problems: ModuleType) -> None:
 
 
 def test_filter_keeps_parabolas_and_turning_points(problems: ModuleType) -> None:
-    """Second order, branch by branch: it returns a piecewise parabola as it is."""
+    """Second order, branch by branch: it returns a piecewise parabola unchanged."""
     pytest.importorskip("curvewise.calibration")
     table6 = importlib.import_module("table6")
     x = np.concatenate((np.linspace(0, 1, 60), np.linspace(1, 0.5, 40)))
@@ -189,7 +189,9 @@ def test_landscape_counts_minima_and_steps(problems: ModuleType) -> None:
 
 
 def test_minima_count_from_a_depth(problems: ModuleType) -> None:
-    """Two valleys, 5 and 4.98 high, 0.1 below the hill between them, on a scan of range 1.1."""
+    """Two local minima, 5 and 4.98 high, 0.1 below the maximum between them, on a scan of range
+    1.1.
+    """
     pytest.importorskip("curvewise.calibration")
     landscape = importlib.import_module("landscape").landscape
     line = landscape(np.interp(np.linspace(0, 4, 401), [0, 1, 2, 3, 4], [6.08, 5, 5.1, 4.98, 6]))
@@ -225,7 +227,7 @@ def output(tmp_path_factory: pytest.TempPathFactory) -> Path:
     ],
 )
 def test_quick_run(problems: ModuleType, output: Path, script: str) -> None:
-    """It succeeds, and what it writes a second time takes the place of the first."""
+    """It succeeds, and its second output replaces the first."""
     if "CURVEWISE_PAPER" not in os.environ:
         pytest.skip("the scripts take two minutes: set CURVEWISE_PAPER=1")
     command = [sys.executable, str(SCRIPTS / f"{script}.py"), "--quick", f"--output={output}"]

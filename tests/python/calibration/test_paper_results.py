@@ -121,7 +121,7 @@ def test_prose_makes_nothing_stale(problems: ModuleType, tmp_path: Path) -> None
 
 @pytest.mark.parametrize("kind", ["de", "nelder-mead", "frechet", "dtw", "folds"])
 def test_code_that_runs_is_counted(problems: ModuleType, kind: str) -> None:
-    """Every module of which a task calls a function is in a list of digests.py."""
+    """If a task calls a function of a module, the module is in a list of digests.py."""
     digests, studies = (importlib.import_module(name) for name in ("digests", "studies"))
     if kind in ("de", "nelder-mead"):
         task = cycle_task(problems, kind)
@@ -218,7 +218,7 @@ def test_every_stored_result_is_of_a_task(stores: ModuleType) -> None:
 
 
 def test_the_page_of_verdicts_is_that_of_the_tables() -> None:
-    """Written again from claims.toml and results.md it is the page that stands there."""
+    """Written again from claims.toml and results.md, it equals the stored page."""
     verdicts = importlib.import_module("verdicts")
     results = (SCRIPTS / "results.md").read_text(encoding="utf-8")
     page = verdicts.page(SCRIPTS / "claims.toml", results)

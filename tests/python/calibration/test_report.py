@@ -1,4 +1,4 @@
-"""Reports: the same page from the search, and its store, and what is on it."""
+"""Reports: the same page from the search and from its store, and its contents."""
 
 from __future__ import annotations
 
@@ -74,11 +74,11 @@ def test_the_page_of_a_store_is_that_of_the_search(search):
     own = (folder / "found.html").read_bytes()
     assert cli.main(["report", str(folder / "s.db"), "-o", str(folder / "x.html")]) == 0
     assert (folder / "x.html").read_bytes() == own
-    assert before.encode() == own  # the uncertainty, from what was written down
+    assert before.encode() == own  # the uncertainty, from the stored one
 
 
 def test_a_search_without_a_store_has_the_same_page(search, tmp_path):
-    """Beside the times of the runs, and the model's name without a version."""
+    """Apart from the times of the runs, and the model's name without a version."""
     found, _, _ = search
     alone = identify(model, experiments(), BOUNDS, **QUICK)
     record, stored = alone.record(), found.record()

@@ -187,7 +187,7 @@ SLOW_SCRIPT = """
 
 
 class SlowLine:
-    """The script's model, which another process goes on with."""
+    """The script's model, which another process continues with."""
 
     identity = "slow line"
 
@@ -196,7 +196,7 @@ class SlowLine:
 
 
 def started(folder, workers, more_than, **streams):
-    """Start the script in a process group of its own; return it and its store with some runs."""
+    """Start the script in a separate process group; return it and its store with some runs."""
     script, file = folder / "slow.py", folder / "s.db"
     script.write_text(textwrap.dedent(SLOW_SCRIPT))
     command = [sys.executable, str(script), str(workers), str(file)]

@@ -130,7 +130,7 @@ def slopes_of(cases, unit=(0.3, 0.6)):
     ],
 )
 def test_derivatives_go_through_a_response(response) -> None:
-    """They are those of what is compared, by the place between the bounds."""
+    """They are the derivatives of the compared curves by the place between the bounds."""
     space, unit, step = Space(RANGES), np.array([0.3, 0.6]), 1e-6
     reference = response(Power()(TRUE))
     (found,) = slopes_of([Case("a", Power(), reference, response=response)])

@@ -107,7 +107,7 @@ def test_what_a_solver_leaves_running_is_ended(tmp_path: Path) -> None:
 def interrupted(
     folder: Path, solver: str, call: str, handler: str = "default_int_handler"
 ) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a call that uses `model` in a process of its own, which says when it is interrupted."""
+    """Run a call that uses `model` in a separate process, which reports when it is interrupted."""
     (folder / "solver.py").write_text(solver)
     scratch = folder / "scratch"
     scratch.mkdir()

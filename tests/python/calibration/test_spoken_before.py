@@ -64,7 +64,7 @@ def test_noise_is_spoken_of_once_before_the_first_run(measure, said):
 
 @pytest.mark.parametrize("measure", ["area", "dtw", *EFFECTS])
 def test_noise_that_does_no_harm_is_not_spoken_of(measure):
-    """It averages out, or it is hardly any. Here warnings are errors."""
+    """It averages out, or it is very small. Here warnings are errors."""
     test = NOISY if measure in ("area", "dtw") else with_noise(model(TRUE), 0.2, seed=1)
     identify(model, test, BOUNDS, measure=measure, **ONE_RUN)
 
@@ -178,7 +178,7 @@ def test_every_number_of_the_progress_has_a_name(monkeypatch, capsys, tmp_path):
 
 
 def test_a_notebook_has_one_line_and_no_warning():
-    """In a kernel without widgets, of which tqdm.auto warns."""
+    """In a kernel without widgets, about which tqdm.auto warns."""
     script = """
         import sys, types
         for name in ("IPython", "ipykernel.zmqshell"):

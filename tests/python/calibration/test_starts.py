@@ -45,7 +45,7 @@ def ended(
 
 
 def driven(course: Any) -> tuple[list[list[float]], Any]:
-    """Return what a course asks for, and what it returns; what is asked is the answer."""
+    """Return the requests of a course, and its result; the requests are the answers."""
     asked: list[list[float]] = []
     answer: Any = None
     while True:
@@ -78,8 +78,8 @@ def test_starts_are_spread_over_the_box(k):
     [
         ([5.0, 5.04, 5.06], 1e-6, 2),
         ([5.06, 5.0, 4.0], 1e-6, 1),
-        ([9e-4, 0.0, 2e-3], 1e-6, 2),  # perfect, by what is negligible
-        ([1e-5, 3e-5, 3e-4], 1e-9, 2),  # and by what was gained
+        ([9e-4, 0.0, 2e-3], 1e-6, 2),  # perfect, relative to a negligible value
+        ([1e-5, 3e-5, 3e-4], 1e-9, 2),  # and relative to the gain
         ([1.0, 1.0, 1.0], 1e-6, 3),
     ],
 )
@@ -149,7 +149,7 @@ def test_equal_values_at_one_place_are_no_plateau():
 
 
 def test_courses_go_in_rounds_and_others_follow():
-    """Each round has one batch of every course that goes on, in their order."""
+    """Each round has one batch of every course that continues, in their order."""
 
     def course(name: float, rounds: int) -> Part[float]:
         for _ in range(rounds):
@@ -172,7 +172,7 @@ def test_courses_go_in_rounds_and_others_follow():
 
 
 class Listed:
-    """In the place of a descent: ends at values that are listed, at places of their own."""
+    """Replaces a descent: ends at listed values, at different places."""
 
     values: list[float]
     begun: list[tuple[Any, bool]]
@@ -216,21 +216,22 @@ def test_starts_that_disagree_are_followed_by_others(values, count, alike, at_on
     if at_once == 1:
         assert len(Listed.begun) == count
         assert f"{alike} of {sum(own for _, own in Listed.begun)} starts" in finish.message
-    # The first in a region of its own, those that begin where the surrogate promises not counted.
+    # The first in a separate region; those that begin where the surrogate predicts a gain do not
+    # count.
     assert [own for _, own in Listed.begun[:6]] == [True, True, True, True, False, True][:count]
     radii = [rules.first_radius for rules, _ in Listed.begun[:5]]
     assert radii == [0.5, 0.25, 0.25, 0.25, 0.25][: len(radii)]
 
 
 class Slow(Descent):
-    """A start whose surrogate promises a tenth at every step, of which it gains nothing."""
+    """A start whose surrogate predicts a tenth at every step, but which gains nothing."""
 
     def _lowest(self, radius: float) -> tuple[np.ndarray, float]:
         return self.centre + 0.01, 0.1
 
 
 class Known:
-    """An inner search of which nothing but the values of runs counts."""
+    """An inner search for which only the values of runs count."""
 
     negligible, sides, is_smooth = 0.0, None, True
 
@@ -245,7 +246,7 @@ class Known:
     ("best", "message"), [(8.9, "another start is far ahead"), (9.3, "2 steps")]
 )
 def test_a_start_far_above_the_best_run_is_abandoned(best, message, monkeypatch):
-    """It is 10, and promises to gain less than a fifth of what it is above the best."""
+    """Its value is 10, and its predicted gain is less than a fifth of the distance to the best."""
     monkeypatch.setattr(Runs, "noise", lambda runs, number, reach: Noise(0.0, 0.0))
     ledger: Any = SimpleNamespace(
         dimensions=K,

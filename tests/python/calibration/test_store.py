@@ -1,4 +1,4 @@
-"""The store of simulations: shared runs, what is another model, and processes that die."""
+"""The store of simulations: shared runs, different models, and processes that die."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def fragile_line(parameters):
 
 
 class Counted:
-    """A model that counts its runs; what it is, it says by itself."""
+    """A model that counts its runs and describes itself."""
 
     def __init__(self, model, identity="line"):
         self.model, self.identity, self.runs = model, identity, 0
@@ -205,7 +205,7 @@ def in_module(source):
 
 
 def test_the_functions_that_a_model_calls_count(tmp_path):
-    """Those of its module, through any number of calls; what it records of its runs does not."""
+    """Variables of its module count, through any number of calls; its records of runs do not."""
     source = """
 def law(slope, p):
     return slope(p) * X
@@ -232,7 +232,9 @@ def other():
 
 
 def test_what_a_version_is_for(tmp_path, recwarn):
-    """A table in a dict is not seen, by which a model may count its runs: the version says so."""
+    """A table in a dict is not detected, because a model may count its runs with it; the version
+    detects it.
+    """
 
     def made(table):
         def model(p):
@@ -307,7 +309,7 @@ def test_a_store_is_made_when_it_is_used_and_opened_again(tmp_path):
     again = SimulationStore(store)
     assert (again.path, again.version) == (store.path, "1")
     assert SimulationStore(store, version="2").version == "2"
-    with store:  # a search has a connection of its own
+    with store:  # a search has a separate connection
         identify(line, EXPERIMENT, BOUNDS, store=store, **SHORT)
         assert store.models() == ["line, version 1"]
 

@@ -154,7 +154,7 @@ def test_line_plot_leaves_out_what_failed():
 
 
 def test_line_plot_of_simulations_that_are_short_for_pcm():
-    """The curves cover a fifth of the experiments: without the guard that is no failure."""
+    """The curves cover a fifth of the experiments: without the guard, this is a valid run."""
 
     def short(parameters):
         return [curve[: len(curve) // 5] for curve in loops(parameters)]

@@ -133,7 +133,7 @@ def test_what_has_no_profile(found):
 
 
 def dented(p):
-    """A line whose slope has four valleys, the deepest at 0.8."""
+    """A line whose slope has four local minima, the deepest at 0.8."""
     a = p["a"]
     depth = (a - 0.8) ** 2 + 0.15 * np.sin(12.5 * (a - 0.8)) ** 2
     return np.column_stack((X, X + depth + (p["b"] - 0.3) * X**2))
@@ -158,7 +158,7 @@ def test_global_of_a_single_parameter():
     bounds = {"a": (0, 1), "b": 0.3}
     found = identify(dented, np.column_stack((X, X)), bounds, **keywords)
     assert found.parameters["a"] == pytest.approx(0.8, abs=0.01)
-    assert not found.converged  # a single round agrees with none
+    assert not found.converged  # a single round cannot agree with another
 
 
 def test_without_cma_the_message_says_what_searched(monkeypatch):

@@ -70,7 +70,7 @@ def test_a_linear_model_has_the_errors_of_least_squares(sigma):
 
 @pytest.mark.nightly
 def test_the_bootstrap_of_a_measure_is_near_least_squares():
-    """Area and dtw of a noisy parabola: alike in efficiency, never better than least squares."""
+    """Area and dtw of a noisy parabola: similar in efficiency, never better than least squares."""
     _, covariance, _ = linear_theory(TEST, 0.1)
     least = np.sqrt(np.diag(covariance))
     for measure in ("area", "dtw"):
@@ -123,7 +123,7 @@ def test_runs_that_fail_leave_differences_to_one_side():
     assert list(errors.values()) == pytest.approx(expected, rel=0.2)
 
 
-# What is determined.
+# Determined parameters.
 
 STRAIN = np.concatenate(
     [np.linspace(a, b, 20, endpoint=False) for a, b in itertools.pairwise((0.0, 0.02, -0.02, 0.02))]
@@ -158,7 +158,7 @@ def test_three_parameters_of_a_loop_are_determined():
 
 
 def test_parameters_that_only_act_together_are_not_determined():
-    """Of two back stresses that are alike, a first branch says the sum; and seeds disagree."""
+    """If two back stresses are similar, a first branch gives only their sum; and seeds disagree."""
 
     def alike(p):
         return hardening({**p, "yield": 300.0})[:21]
@@ -244,7 +244,7 @@ def test_a_half_interval_of_a_fifth_is_determined_whatever_the_linear_theory_say
 
 
 def test_the_weakest_direction_of_a_parameter_that_is_0():
-    """10 % of nothing is no change: a part of the range is, and the loops are seen to move."""
+    """10 % of 0 is not a change; a part of the range is, and the loops then move."""
     test = parabola({**TRUTH, "c": 0.0})
     found = identify(parabola, test, {**BOUNDS, "c": (0.0, 20.0)}, measure="dtw", **QUIET)
     found = replace(found, parameters={**found.parameters, "c": 0.0})

@@ -1,4 +1,4 @@
-"""compare: what it prints and writes of two files, and what it says of files it cannot use."""
+"""compare: its output for two files, and its errors for files that it cannot use."""
 
 from __future__ import annotations
 

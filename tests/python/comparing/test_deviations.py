@@ -38,7 +38,7 @@ def test_of_a_curve_that_was_moved_up_it_is_by_how_much(preset: Any) -> None:
     line, above = (
         P[:2],
         raised[:2],
-    )  # parallel: the leash could be shorter, were it not for the ends
+    )  # parallel: the distance could be smaller, except at the ends
     assert of("frechet_continuous", line, above, preset)[1:] == pytest.approx((3.0, 300.0))
     # "matched" cuts the corner at the turn.
     tolerance = 0.02 if preset == "scaled" else 1e-12
@@ -69,7 +69,7 @@ def test_along_a_path(measure: str, preset: Any) -> None:
 
 
 def test_mean_leash_of_a_continuous_matching() -> None:
-    # The leash of a walk from one end to the other is 1 at the first end and 3 at the last.
+    # The pair distance of a walk from one end to the other is 1 at the first end and 3 at the last.
     found = of("frechet_continuous", [(0, 0), (8, 0)], [(0, 1), (8, 3)])
     assert found.largest == 3.0
     assert 1.5 < found.mean < 3.0
@@ -107,7 +107,7 @@ def test_area_of_other_units_has_no_mean_above_the_largest() -> None:
     for preset in ("scaled", "raw", "paper"):
         found = of("area", LOOP, per_cent, preset)
         assert 0.1 * found.largest < found.mean <= found.largest
-    # Where the curves travel alike, the mean stays the area by how far the reference travels.
+    # If the curves travel in parallel, the mean remains the area by how far the reference travels.
     assert str(of("area", LOOP, SIMULATION, "scaled")).startswith("mean 54.09 ")
 
 

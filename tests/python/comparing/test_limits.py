@@ -15,7 +15,7 @@ PAIRED = ["area", "pcm", "frechet", "dtw", "frechet_continuous"]
 
 @pytest.fixture
 def compared():
-    """A comparison of all measures that pair points, and one that pairs none."""
+    """A comparison of all measures that pair points, and one of a measure that does not."""
     pair = curvewise.datasets.hysteresis_pair()
     return curvewise.compare(*pair, measures=[*PAIRED, "curve_length"])
 

@@ -30,7 +30,7 @@ PAIRS = list(itertools.product(CURVES, repeat=2))
 
 
 def alone(name: str, P: Any, Q: Any, preset: Any) -> float | str:
-    """Return the value of one measure, or why there is none."""
+    """Return the value of one measure, or its error."""
     try:
         return curvewise.compare(P, Q, measures=[name], preset=preset)[name]
     except ValueError as error:

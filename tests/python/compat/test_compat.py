@@ -1,9 +1,9 @@
 """curvewise.compat gives the names, signatures and numbers of similaritymeasures 1.5.0.
 
-Its numbers come from the golden data and, where a case has no golden pair (integer curves, vertical
-segments, further columns), as literals that it printed; the area is also compared with plain loops
-over its definition, written below. Where that package is installed, as it is by the extra "test",
-random curves of every kind are compared with it, bit for bit.
+Its numbers come from the golden data. Cases without a golden pair (integer curves, vertical
+segments, further columns) have literals that the package printed. The area is also compared with
+plain loops over its definition, written below. If that package is installed (the extra "test"
+installs it), random curves of every kind are compared with it, bit for bit.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ SIGNATURES = {
     "poly_area": "(x, y)",
 }
 
-# A pair of integers with a segment of each kind; the numbers beside its uses are that package's.
+# A pair of integers with a segment of each kind; the numbers next to its uses are that package's.
 P = np.array([[0, 0], [2, 3], [5, 4], [7, 1], [9, 0], [11, 2]])
 Q = np.array([[0, 1], [4, 6], [11, -3]])
 PF, QF = P.astype(float), Q.astype(float)

@@ -1,4 +1,4 @@
-"""What curvewise.compat accepts and refuses, and what is nan or inf, as that package has it."""
+"""Inputs that curvewise.compat accepts and rejects, and nan or inf results, as in that package."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def test_tables_and_distances_of_infinite_points() -> None:
     assert np.array_equal(d, [[0, np.inf], [np.inf, np.nan]], equal_nan=True)
 
 
-# ---------------------------------------------------------------- what is accepted and refused
+# ---------------------------------------------------------------- accepted and rejected inputs
 
 
 def test_read_only_arrays_are_accepted_and_nothing_is_changed() -> None:

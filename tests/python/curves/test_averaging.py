@@ -1,4 +1,4 @@
-"""Dense, noisy records: their reversals, what is left of their noise, and records left alone."""
+"""Dense, noisy records: their reversals, their remaining noise, and records that stay unchanged."""
 
 from __future__ import annotations
 

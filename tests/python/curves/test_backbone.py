@@ -47,7 +47,7 @@ def test_small_cycles_between_give_no_point():
     record = [(0, 0), (1, 10), (-1, -10), (0.75, 6), (-0.75, -6), (1.0, 9), (-1.0, -9), (0, 0)]
     for cycle, force in (("first", 10), ("last", 9)):
         assert backbone(record, cycle=cycle).tolist() == [[-1, -force], [0, 0], [1, force]]
-    # A partial unloading is no peak, although its valley is within 10 % of one.
+    # A partial unloading does not make a peak, although its minimum is within 10 % of one.
     record = [(0, 0), (10, 10), (9.5, 5), (10, 11), (-10, -10), (0, 0)]
     assert backbone(record, cycle="last", reversal=0.02)[-1].tolist() == [10, 11]
 

@@ -18,7 +18,7 @@ TEST, SIMULATION = curvewise.datasets.hysteresis_pair()
 
 
 def zigzag(ends: list[float], steps: int, noise: float = 0.0) -> np.ndarray:
-    """Straight branches between `ends`, of `steps` steps each, with noise on what is between."""
+    """Straight branches between `ends`, of `steps` steps each, with noise between the ends."""
     x = np.interp(np.arange(steps * (len(ends) - 1) + 1) / steps, np.arange(len(ends)), ends)
     inner = np.arange(x.size) % steps != 0
     return x + noise * inner * np.random.default_rng(1).uniform(-1, 1, x.size)
@@ -104,7 +104,7 @@ def test_resampled_branches_keep_their_ends() -> None:
     for at in (slice(0, 11), slice(10, 31)):
         lengths = np.hypot(*(np.diff(result[at], axis=0) / np.ptp(TEST, axis=0)).T)
         assert lengths.max() < 1.2 * lengths.mean()
-    # All new points lie on the curve, so that the continuous distance is that of what is cut off.
+    # All new points lie on the curve, so the continuous distance is that of the cut-off corners.
     scaled = curvewise.normalize(TEST, result)
     assert curvewise.frechet_continuous(*scaled) < 0.04
     assert curves.resample(TEST, 5, turns=turns).shape == (13, 2)
@@ -126,7 +126,7 @@ def test_equal_curves_sampled_otherwise_become_equal() -> None:
     loop = np.column_stack((strain, curvewise.datasets.kinematic_hardening(strain)))
     thinned = np.delete(loop, [i for i in range(1200) if i % 400 and i % 5], axis=0)
     P, Q = (curves.resample(c, 100, by=0, turns=curves.turning_points(c)) for c in (loop, thinned))
-    # What is left is what thinning cuts off at the knee.
+    # The difference is the corner that thinning cuts off at the knee.
     assert np.abs(P - Q).max(axis=0) == pytest.approx([0, 0], abs=3.0)
     assert curvewise.mae(P, Q) < 0.1
 

@@ -67,11 +67,11 @@ def test_bilinear_damping_is_that_of_atc_40(ductility, hardening, points):
     assert found == pytest.approx([expected] * 2, rel=1e-12)
     secant = 10.0 * (1.0 + hardening * (ductility - 1.0)) / ductility
     assert stiffness(record) == pytest.approx([secant] * 2, rel=1e-12)
-    if ductility > 1.5:  # else the line is no longer straight to 35 % of the height
+    if ductility > 1.5:  # otherwise the line is curved within 35 % of the height
         assert stiffness(record, kind="unloading") == pytest.approx([10.0] * 2, rel=1e-12)
         back = stiffness(record, kind="reloading")
         assert back[0] == pytest.approx(10.0, rel=1e-12)
-        assert math.isnan(back[1])  # the record ends with the valley
+        assert math.isnan(back[1])  # the record ends at this reversal
 
 
 def test_perfectly_plastic_damping_by_the_formula_of_atc_40():

@@ -1,4 +1,4 @@
-"""Noise that turns values back: what is fitted, and records of machines resampled as they are."""
+"""Noise that reverses values: the fit, and records of machines resampled without changes."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Curves with more coordinates than points are asked about, and no others, wherever they come in.
+"""Curves with more coordinates than points are rejected as doubtful, and no others, in every call.
 
-What is in doubt is decided here by a definition of its own; every entry is tried with it.
+The tests decide which curves are doubtful by a separate definition, and try every entry with it.
 """
 
 from __future__ import annotations

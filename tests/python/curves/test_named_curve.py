@@ -154,7 +154,7 @@ def test_identifications_name_their_axes():
     uncertain = found.uncertainty().plot()
     assert NAMES in [labels(ax) for part in uncertain.subfigs for ax in part.axes]
     uncertain.draw_without_rendering()
-    lower = uncertain.subfigs[1]  # its title stands above the loops, its legend below
+    lower = uncertain.subfigs[1]  # its title is above the loops, its legend below
     (legend,), (panel,), title = lower.legends, lower.axes, lower.texts[0]
     boxes = [artist.get_window_extent() for artist in (legend, panel, title)]
     assert boxes[0].y1 <= boxes[1].y0 < boxes[1].y1 <= boxes[2].y0

@@ -165,7 +165,7 @@ def test_longitudes_that_jump_are_asked_about() -> None:
         warnings.simplefilter("error")
         curves.resample(track, 3, metric="euclidean")  # meant so
         curves.trim(track, by=[0, 1, 2], metric="euclidean")
-        curves.resample([(178.0, 95.0), (179.0, 0.0), (-179.0, 0.0)], 3)  # 95 is no latitude
+        curves.resample([(178.0, 95.0), (179.0, 0.0), (-179.0, 0.0)], 3)  # 95 is not a latitude
         curves.resample([(178.0, 0.0), (900.0, 0.0)], 3)
         curves.resample([178.0, -178.0], 3)
         curves.resample([(0.0, 0.0, 0.0), (300.0, 0.0, 0.0)], 3)

@@ -1,12 +1,12 @@
-"""What the tests that embed curvewise share: the C++ library, at most one build of each kind.
+"""Common code of the tests that embed curvewise: the C++ library, at most one build of each kind.
 
-The static library is that of the installed package, which is built of these sources and by nature
-far from where it was built. Where the package is not installed, or a source is newer, it is built.
-The shared library is for the nightly run. It is built inside a project that fetches it (the third
-way of docs/embedding.md) and has other flags: its bits must not depend on them, and
-`CURVEWISE_INSTALL=ON` installs it from there. What is built is installed, moved, and its build
-folder removed, so that it can depend on neither. Where pytest-xdist runs several processes, the
-first that asks builds and the others wait.
+The static library is that of the installed package, which is built of these sources and is
+installed far from its build. If the package is not installed, or a source is newer, the tests build
+it. The shared library is for the nightly run. It is built inside a project that fetches it (the
+third way of docs/embedding.md) and has other flags: its bits must not depend on them.
+`CURVEWISE_INSTALL=ON` installs it from there. Each built library is installed and moved, and its
+build folder is removed, so that it can depend on neither. If pytest-xdist runs several processes,
+the first that needs a library builds it and the others wait.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def prefix(built: Callable[[str], Path]) -> Callable[[str], Path]:
 
 
 def _build(kind: str, work: Path) -> Path:
-    """Build and install a library in a folder; return it without what it was built in."""
+    """Build and install a library in a folder; return it without its build folder."""
     work.mkdir()
     if kind == "static":
         build(ROOT, work / "build", *OPTIONS)

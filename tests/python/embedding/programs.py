@@ -36,7 +36,7 @@ MARKS = [
 
 
 def tool(name: str) -> str:
-    """Return where a build tool is: beside the running Python, or else on the PATH."""
+    """Return the path of a build tool: next to the running Python, or else on the PATH."""
     beside = str(Path(sys.executable).parent)
     found = shutil.which(name, path=beside) or shutil.which(name)
     assert found, f"no {name}: pip install curvewise[test]"
@@ -67,7 +67,7 @@ def run(
 
 
 def output(*command: str | Path, cwd: Path | None = None, **environment: str) -> str:
-    """Run a command and return what it printed; fail with all that it printed."""
+    """Run a command and return its output; fail with the whole output."""
     done = run(*command, cwd=cwd, **environment)
     if done.returncode != 0:
         pytest.fail(f"{' '.join(map(str, command))}\n{done.stdout}", pytrace=False)

@@ -1,7 +1,7 @@
-"""The C interface, called from Python by ctypes: every option, and every way to be refused.
+"""The C interface, called from Python by ctypes: every option, and every error.
 
-The library is loaded beside the Python module, which has a copy of its own inside; both give the
-same bits. The functions of the static library, which shows none, are compiled into one that does.
+The library is loaded next to the Python module, which contains a copy; both give the same bits. The
+static library exports no functions, so they are compiled into one that does.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """curvewise in other programs: every way to get it, in C++, C and Fortran.
 
-The programs, project files and commands are those of docs/embedding.md; what they print equals
-what Python computes, to the last bit. `pytest -m embed` runs these tests and those of the examples
-alone. conftest.py says which library they use.
+The programs, project files and commands are those of docs/embedding.md. Their output equals
+Python's results, to the last bit. `pytest -m embed` runs these tests and those of the examples
+alone. conftest.py chooses the library.
 """
 
 from __future__ import annotations
@@ -109,11 +109,11 @@ def test_add_subdirectory_leaks_nothing(tmp_path) -> None:
 
 @pytest.mark.nightly
 def test_fetch_content(built) -> None:
-    """As a shared library, which a project may ask for all that it fetches to be.
+    """As a shared library: a project may set this for everything that it fetches.
 
-    conftest.py builds it, with the flags of a project of its own (-Ofast, unity, link-time
-    optimisation) and no warnings; the tests of the prefix "shared" use what it installs, and get
-    the same bits.
+    conftest.py builds it, with the flags of a separate project (-Ofast, unity, link-time
+    optimisation) and without warnings. The tests of the prefix "shared" use the installed result,
+    and get the same bits.
     """
     assert_tool_right((built("shared") / "printed.txt").read_text(encoding="utf-8"))
 
@@ -151,7 +151,7 @@ def test_wheel_says_where(wheel) -> None:
 
 
 def test_in_one_process_with_the_python_module(prefix, tmp_path) -> None:
-    """A plug-in that embeds the static library shows none of it, and both give the same bits."""
+    """A plug-in that embeds the static library exports none of it; both give the same bits."""
     source, plugin = tmp_path / "plugin.cpp", tmp_path / "plugin.so"
     source.write_text(
         "#include <curvewise/curvewise.hpp>\n"

@@ -1,7 +1,8 @@
-"""The examples in cpp/examples, and what embedding must not change or show.
+"""The examples in cpp/examples, and the limits of embedding: unchanged results, no exported
+symbols.
 
-Each example is built by CMake with the static and with the shared library, and what it prints
-equals what Python computes, to the last bit. See test_embed.py for the rest.
+Each example is built by CMake with the static and with the shared library. Its output equals
+Python's results, to the last bit. See test_embed.py for the rest.
 """
 
 from __future__ import annotations
@@ -272,7 +273,8 @@ def test_the_shared_library_shows_its_interface_alone(prefix) -> None:
     expected -= {f"curvewise::{name}" for name in of_index}
     expected |= {f"curvewise::Index::{name}" for name in of_index | {"~Index", "operator="}}
     expected |= {f"{what} for curvewise::Stopped" for what in ("typeinfo", "typeinfo name")}
-    unused = {"vtable for curvewise::Stopped"}  # whoever makes one has it; link-time optimisation
+    # code that constructs one has it; link-time optimisation
+    unused = {"vtable for curvewise::Stopped"}
     assert functions - unused == expected
 
 

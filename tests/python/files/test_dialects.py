@@ -39,7 +39,7 @@ ENCODINGS = ("utf-8", "utf-8-sig", "utf-16", "cp1252", "latin-1")
 
 
 def numbers(chance: random.Random, least: int) -> Table:
-    """Return rows of two numbers as texts with a point, of at least so many digits behind it."""
+    """Return rows of two numbers as texts with a point and at least `least` digits behind it."""
     digits = max(least, chance.choice((0, 1, 3)))
     size = chance.choice((2, 60, 3_000, 2_000_000))
     table: Table = []
@@ -127,7 +127,7 @@ class Dialect:
 
 
 def outcome(file: Path, table: Table, columns: list[int] | None = None) -> str:
-    """Return "right", "said", or what was read without a word."""
+    """Return "right", "said", or the numbers that were read without a message."""
     expected = [[float(text) for text in row] for row in table]
     with warnings.catch_warnings():
         warnings.simplefilter("error")

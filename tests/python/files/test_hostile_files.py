@@ -1,6 +1,6 @@
-"""Files that are made to take all memory or time: right data or a word, within 1 GiB and seconds.
+"""Files made to take all memory or time: right data or an error, within 1 GiB and seconds.
 
-A process of its own reads them, one after the other, under a limit of memory.
+A separate process reads them, one after the other, with a limit of memory.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ SHEETS = {
 
 
 def hostile(folder: Path, slow: bool) -> Iterator[tuple[str, object]]:
-    """Make files, with what has to come of each: points, or words of an error."""
+    """Make files, each with its expected result: points, or words of an error."""
     if slow:
         (folder / "long.csv").write_bytes(b"1,2\n" * 2**26)
         yield str(folder / "long.csv"), "takes more memory than there is; give a part of it"

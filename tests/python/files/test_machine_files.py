@@ -1,4 +1,4 @@
-"""Files as machines write them: thousands, quotation marks, long headers, what stands below."""
+"""Raw machine files: thousands separators, quotation marks, long headers, lines below the data."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tests that begin beside zero strain and stress, or with a toe: asked about, with a remedy."""
+"""Tests that do not begin at zero strain and stress, or with a toe: reported, with a remedy."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ SMALL = [(6e-5, 0.0), (-1e-4, 0.0), (0.0, 15.0), (0.0, -20.0)]
 
 
 def moved(test: np.ndarray, strain: float, stress: float) -> np.ndarray:
-    """Return a test of which strain and stress were not zeroed."""
+    """Return a test whose strain and stress were not zeroed."""
     return test + np.array([strain, stress])
 
 
@@ -81,7 +81,7 @@ def test_a_toe_is_refused_and_the_remedy_cuts_it(sign: float, shift: float) -> N
         assert check_beginnings([made], "MPa") == ""
         np.testing.assert_allclose(made[-POINTS:], sign * TEST[-POINTS:], rtol=0.0, atol=5e-5)
     assert "may begin with a toe" in check_beginnings([with_toe(sign * TEST, 2e-4)], "MPa")
-    # The straight part goes through zero, but the toe is still there.
+    # The straight part points at zero, but the toe is still there.
     with pytest.raises(ValueError, match="begins with a toe"):
         check_beginnings([sign * shift_to_origin(sign * test, elastic=(120, 220))], "MPa")
 

@@ -67,13 +67,13 @@ def test_what_is_known_is_not_searched_for(tmp_path: Path) -> None:
 
 
 def cyclic_softening(cycles: int, points: int) -> np.ndarray:
-    """Return a test of many cycles, of which the last is stable and the first is not."""
+    """Return a test of many cycles; the last is stable and the first is not."""
     turns = [0.0, *(0.01, -0.01) * cycles, 0.01]
     strain = np.interp(np.arange(points * (len(turns) - 1) + 1) / points, range(len(turns)), turns)
     return np.column_stack((strain, MATERIAL.stress(strain, MADE_OF)))
 
 
-@pytest.mark.parametrize("points", [10, 400])  # as they are; thinned
+@pytest.mark.parametrize("points", [10, 400])  # unchanged; thinned
 def test_the_last_cycle_alone_is_compared_after_all_of_the_history(points: int) -> None:
     test = cyclic_softening(4, points)
     fixed = {name: MADE_OF[name] for name in ("Q", "b", "E")}
@@ -83,8 +83,8 @@ def test_the_last_cycle_alone_is_compared_after_all_of_the_history(points: int) 
     for compared in fit.tests:
         np.testing.assert_array_equal(compared[[0, -1]], test[[-2 * points - 1, -1]])
         assert len(compared) == 21 if points == 10 else 250 < len(compared) < 320
-    # Without its history the cycle would be that of a material that has not softened.
-    # Thinning cuts off what is between two points of the knee.
+    # Without its history, the cycle would be that of a material that has not softened. Thinning
+    # cuts off the points between two points of the knee.
     np.testing.assert_allclose(fit.found.simulations[1], fit.tests[1], atol=1.0)
     assert fit.parameters == pytest.approx(MADE_OF, rel=1e-3)
     assert fit.model.jacobian(MADE_OF)[1].shape == (len(fit.tests[1]), 2, len(MADE_OF))
@@ -136,11 +136,11 @@ def test_a_modulus_that_is_not_that_of_unloading_is_spoken_of(fit: MaterialFit) 
     assert "E = 2" in ratio.remark
     assert "is 33 % below 3" in str(ratio)
     known = fit_material(LOOP, MATERIAL, fixed={"E": 150e3}, max_runs=20, progress=False)
-    assert not known.remark  # whoever gives it knows
+    assert not known.remark  # a given value causes no remark
 
 
 class Narrow(ChabocheVoce):
-    """Reads off a test what is far too low for its modulus."""
+    """Reads a value off a test that is far too low for its modulus."""
 
     def bounds_from(self, experiments):
         return {**super().bounds_from(experiments), "E": (20e3, 150e3)}
@@ -206,8 +206,8 @@ def test_what_hardens_along_a_line_has_no_saturation_and_that_is_said(data_dir: 
 
 
 def test_a_search_does_not_end_in_a_corner_of_its_bounds(data_dir: Path) -> None:
-    # Of two surfaces one is as large as the other here, and none moves: 4.79 to 5.6 MPa, five
-    # starts in six, where steps went to the bounds. scipy's best of fifty starts: 4.661 MPa.
+    # The two surfaces have the same size here, and neither moves. The result was 4.79 to 5.6 MPa,
+    # in five starts of six, when steps went to the bounds. scipy's best of fifty starts: 4.661 MPa.
     name = data_dir / "cyclic" / "resslab_example_3.csv"
     fit = fit_material(read_curve(name, ["e_true", "Sigma_true"]), YoshidaUemori(), progress=False)
     residuals = fit.found.simulations[0] - fit.tests[0]
@@ -228,7 +228,7 @@ def test_a_cycle_that_is_cut_short_is_followed_as_far_as_it_goes() -> None:
         fit_material(LOOP[:75], MATERIAL, cycles="last", progress=False)
 
 
-@pytest.mark.parametrize("points", [40, 400])  # as they are; thinned
+@pytest.mark.parametrize("points", [40, 400])  # unchanged; thinned
 def test_branches_that_run_back_and_forth_by_noise_are_followed(points: int) -> None:
     strain = np.interp(np.arange(3 * points + 1) / points, range(4), (0.0, 0.02, -0.02, 0.02))
     clean = np.column_stack((strain, MATERIAL.stress(strain, MADE_OF)))

@@ -1,4 +1,6 @@
-"""What is known of parameters: numbers and bounds, their units, and what one cycle cannot tell."""
+"""Known parameters: numbers and bounds, their units, and parameters that one cycle cannot
+determine.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,7 @@ TEST = np.column_stack((STRAIN, STEEL.stress(STRAIN, MADE_OF)))
 
 @pytest.fixture
 def command(tmp_path: Path) -> list[str]:
-    """The command for the test, without what is known."""
+    """The command for the test, without the known parameters."""
     np.savetxt(tmp_path / "t.csv", TEST, delimiter=",", header="strain,stress", comments="")
     output = ["--output", str(tmp_path / "out")]
     return ["fit", str(tmp_path / "t.csv"), "--backstresses", "1", *output]

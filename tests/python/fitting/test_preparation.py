@@ -1,4 +1,4 @@
-"""Tests that are prepared, in Python, by the commands and by studies, and what is said of it."""
+"""Prepared tests, in Python, by the commands and by studies, and the messages about them."""
 
 from __future__ import annotations
 
@@ -204,7 +204,7 @@ def test_the_material_runs_through_cycles_that_are_left_out() -> None:
     simulated = STEEL.stress(driven.path[:, 0], MADE_OF)[driven.compared]
     np.testing.assert_allclose(simulated, RECORD[KEPT, 1], rtol=1e-9, atol=1e-6)
     joined = STEEL.stress(RECORD[KEPT, 0], MADE_OF)
-    assert np.abs(joined - RECORD[KEPT, 1]).max() > 10.0  # what was fitted before
+    assert np.abs(joined - RECORD[KEPT, 1]).max() > 10.0  # the earlier fit
 
 
 def test_their_hardening_is_found() -> None:

@@ -98,7 +98,7 @@ def test_what_is_no_test_is_refused_elsewhere() -> None:
 
 @pytest.fixture
 def fitted(monkeypatch: pytest.MonkeyPatch) -> list[np.ndarray]:
-    """The tests that the command would fit, in the place of the search."""
+    """The tests that the command would fit, instead of the search."""
     found: list[np.ndarray] = []
 
     def fit(tests: list[np.ndarray], *_: object, units: str, **__: object) -> None:

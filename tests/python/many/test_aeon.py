@@ -1,4 +1,4 @@
-"""curvewise.aeon: the bits of curvewise's functions, the values of aeon, and what is refused."""
+"""curvewise.aeon: the bits of curvewise's functions, the values of aeon, and errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The mean under dtw against the reference, and what it promises; the medoid."""
+"""The mean under dtw against the reference, and its guarantees; the medoid."""
 
 from __future__ import annotations
 

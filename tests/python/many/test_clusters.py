@@ -11,7 +11,7 @@ import pytest
 import curvewise
 from curvewise.many.k_medoids import k_medoids
 
-# Test by test: a file that is skipped whole would not be in the list of what was skipped.
+# Test by test, because a file that is skipped as a whole would not be in the list of skipped tests.
 with_scikit_learn = pytest.mark.skipif(
     find_spec("sklearn") is None, reason='no scikit-learn: pip install "curvewise[sklearn]"'
 )

@@ -20,7 +20,7 @@ import curvewise
 if TYPE_CHECKING:
     from distributed import Client
 
-# Test by test: a file that is skipped whole would not be in the list of what was skipped.
+# Test by test, because a file that is skipped as a whole would not be in the list of skipped tests.
 pytestmark = pytest.mark.skipif(
     find_spec("distributed") is None, reason='no dask: pip install "curvewise[dask]"'
 )
@@ -283,7 +283,7 @@ def test_cancelling_ends_the_blocks_that_have_begun(client: Client) -> None:
         time.sleep(0.01)
     time.sleep(0.3)
     future.cancel()
-    # The workers are free again: what they are given now they compute.
+    # The workers are free again: they compute new tasks.
     few = walks(3)
     found = client.compute(curvewise.dask.cdist(few)).result(timeout=60)
     assert np.array_equal(found, curvewise.cdist(few))

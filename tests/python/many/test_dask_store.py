@@ -1,4 +1,4 @@
-"""A matrix on disk: whole and right after SIGKILL, and for nothing but what it was begun for."""
+"""A matrix on disk: complete and right after SIGKILL, and only for the call that began it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import pytest
 
 import curvewise
 
-# Test by test: a file that is skipped whole would not be in the list of what was skipped.
+# Test by test, because a file that is skipped as a whole would not be in the list of skipped tests.
 pytestmark = pytest.mark.skipif(
     find_spec("dask") is None or find_spec("zarr") is None,
     reason='no dask or no zarr: pip install "curvewise[zarr]"',
@@ -57,7 +57,7 @@ def test_only_the_blocks_that_are_not_there_are_computed(tmp_path):
     (store / "checksums" / removed.name).unlink()
     times = [chunk.stat().st_mtime_ns for chunk in others]
     removed.unlink()
-    half = store / "c" / "3.0123abcd.partial"  # as zarr calls what it has not written to the end
+    half = store / "c" / "3.0123abcd.partial"  # zarr's name for an unfinished block
     half.write_bytes(b"half a block")
     again = curvewise.dask.pdist(curves, block=4, store=store)
     assert np.array_equal(again.compute(scheduler="sync"), local)

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.skipif(
 
 CURVES = [
     np.random.default_rng(n).normal(size=(4 + n, 2)).cumsum(axis=0) for n in range(1, 8)
-]  # blocks of 3: nine, of which five are cut off at an edge
+]  # blocks of 3: nine, five of them cut off at an edge
 
 
 def stored(store: Path) -> Any:

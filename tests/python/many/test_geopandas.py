@@ -138,7 +138,7 @@ def test_a_collection_of_movingpandas(tracks: Any) -> None:
 
 
 def behind(movingpandas: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Put curvewise in the place of what MovingPandas computes distances by."""
+    """Replace the distance function of MovingPandas by curvewise."""
     import shapely
 
     def distance(measure: Any) -> Any:

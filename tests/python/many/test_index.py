@@ -16,7 +16,7 @@ import curvewise
 from curvewise import Index
 from curvewise._options import CoordinateMetric
 
-# Measures with options that have bounds of their own, or none.
+# Measures with options that have bounds or do not have bounds.
 CASES: list[tuple[str, dict[str, Any]]] = [
     *(("dtw", {"metric": metric}) for metric in get_args(CoordinateMetric)),
     *(("frechet", {"metric": metric}) for metric in get_args(CoordinateMetric)),

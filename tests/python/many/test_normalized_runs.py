@@ -91,7 +91,7 @@ def test_a_small_wave_on_a_large_level_keeps_its_digits() -> None:
     t = np.arange(2000.0)
     wave = np.sin(t / 7) * 2.0**-10
     exact = z_normalized(wave[500:564])
-    level = 2.0**36  # the sum of squares less the square of the mean has no digits left
+    level = 2.0**36  # the sum of squares less the square of the mean has lost all digits
     on_level = z_normalized((level + wave.round(9))[500:564])
     assert np.abs(on_level - exact).max() < 2e-2
     np.testing.assert_allclose(

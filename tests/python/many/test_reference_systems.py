@@ -1,4 +1,4 @@
-"""Tracks that know their reference system are never compared as other numbers than they are."""
+"""Tracks with a reference system are never compared in another one."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ import pytest
 
 import curvewise
 
-# Test by test: a file that is skipped whole would not be in the list of what was skipped.
+# Test by test, because a file that is skipped as a whole would not be in the list of skipped tests.
 pytestmark = pytest.mark.skipif(
     find_spec("sklearn") is None, reason='no scikit-learn: pip install "curvewise[sklearn]"'
 )

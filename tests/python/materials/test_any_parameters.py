@@ -27,7 +27,7 @@ each_material = pytest.mark.parametrize("material", MATERIALS, ids=repr)
 
 
 def drawn(material: Material, rng: np.random.Generator, decades: float) -> dict[str, float]:
-    """Draw parameters, each up to so many decades from those of a metal."""
+    """Draw parameters, each up to that many decades from those of a metal."""
     usual = USUAL | (POWER if isinstance(material, YoshidaUemori) else {})
     usual |= {"CB": 1.0}
     found = {name: usual[name] * 10 ** rng.uniform(-decades, decades) for name in material.names}
@@ -175,7 +175,7 @@ def test_a_flow_that_would_snap_back_stays_at_its_first_root(rounds) -> None:
         )
         jumps += (np.diff(path) < -20.0).any()
     assert jumps > 0.05 * count
-    # Beside the maximum a step of Halley's is short, and the root is far.
+    # Near the maximum, a step of Halley's is short, and the root is far.
     material = ChabocheVoce(2)
     numbers = (200e3, 300.0, -134.35822243469653, 29895.029526900948, 975111.5889026686)
     numbers += (8571743.408844711, 5279097.752397228, 54211.24129382934)

@@ -1,4 +1,6 @@
-"""What is read off tests, and the bounds around it: they hold what made a loop, or say why not."""
+"""Values read off tests, and the bounds around them: they hold the true parameters, or give a
+reason.
+"""
 
 from __future__ import annotations
 
@@ -179,4 +181,4 @@ def test_measured_loops_are_read_as_steel(name: str, data_dir: Path) -> None:
     for material in (CHABOCHE, YoshidaUemori()):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            Space(material.bounds_from(test)).warn_of_wide_bounds()  # of which there are none
+            Space(material.bounds_from(test)).warn_of_wide_bounds()  # there are no wide ones

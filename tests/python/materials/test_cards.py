@@ -31,7 +31,7 @@ CCX = pytest.mark.skipif(
 
 
 def body(card: str, solver: str) -> list[str]:
-    """Return the lines of a card that are no comments."""
+    """Return the lines of a card that are not comments."""
     return [line for line in card.splitlines() if not line.startswith(FORMATS[solver].comment)]
 
 

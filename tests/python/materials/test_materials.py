@@ -1,4 +1,4 @@
-"""Points of material from Python: values, slopes, models for identify, and what is refused."""
+"""Material points from Python: values, derivatives, models for identify, and errors."""
 
 from __future__ import annotations
 
@@ -29,12 +29,13 @@ each_material = pytest.mark.parametrize(("material", "constants"), MATERIALS)
 
 
 def path(*turns: float, points: int = 53) -> np.ndarray:
-    """Return strains from 0 to turn to turn, so many on each way."""
+    """Return strains from 0 to turn to turn, `points` on each way."""
     ways = zip((0.0, *turns), turns, strict=False)
     return np.concatenate([np.linspace(a, b, points + 1)[1:] for a, b in ways])
 
 
-STRAIN = path(0.031, -0.029, 0.027)  # none of them where yielding begins: there is a kink
+# yielding begins at none of these strains, because there is a kink
+STRAIN = path(0.031, -0.029, 0.027)
 
 
 def test_chaboche_without_voce_is_the_model_of_the_datasets() -> None:

@@ -1,9 +1,9 @@
 """dtw and frechet equal the numpy reference bit for bit: distances, paths and tables.
 
-Pairs come in families, each after one way in which a strip sweep could go wrong: random walks with
-every option, small integer grids on which almost every comparison is a tie, sizes at the edges of
-SIMD vectors and strips, and magnitudes at the ends of the range of a double. Every pair is checked
-against the reference and, apart from it, for what a path must be: its steps, its ends, and a sum
+Pairs come in families, one for each way in which a strip sweep could go wrong. These are random
+walks with every option, small integer grids with ties in almost every comparison, sizes at the
+edges of SIMD vectors and strips, and magnitudes at the ends of the range of a double. Every pair is
+checked against the reference. Separately, its path must be valid: its steps, its ends, and a sum
 (DTW) or maximum (Fréchet) of ground distances along it that is the distance itself.
 """
 
@@ -27,7 +27,8 @@ Options = dict[str, Any]
 
 DIMENSIONS = (1, 2, 3, 4, 7)
 
-# Computed exactly alike by kernel and reference; orders 1, 2 and inf go by other metrics' names.
+# Computed in exactly the same way by kernel and reference; orders 1, 2 and inf have the names of
+# other metrics.
 EXACT_GROUNDS: tuple[Options, ...] = (
     {},
     *({"metric": metric} for metric in get_args(CoordinateMetric)),

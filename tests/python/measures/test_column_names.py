@@ -36,7 +36,7 @@ CALLS: dict[str, Callable[[pd.DataFrame], object]] = {
 @pytest.mark.parametrize("name", CALLS)
 def test_other_columns_are_refused(name):
     CALLS[name](TEST)
-    CALLS[name](TEST.to_numpy())  # an array has no names to be wrong
+    CALLS[name](TEST.to_numpy())  # an array does not have names that could be wrong
     for other in (SWAPPED, TEST.rename(columns={"stress": "force"})):
         with pytest.raises(ValueError, match="name and order them alike"):
             CALLS[name](other)

@@ -26,7 +26,7 @@ TOO_LARGE = ["frechet_table", "dtw_table"]
 
 
 class Case(NamedTuple):
-    """A call and what it must say."""
+    """A call and its expected message."""
 
     P: Any
     Q: Any
@@ -61,7 +61,7 @@ def with_entry(place: Any, value: float, shape: tuple[int, ...] = (20, 2)) -> An
 
 
 def bad_types() -> Iterator[tuple[str, str, Any, str, type[Exception]]]:
-    """Yield what is refused whoever computes: id, argument, curve, message, error."""
+    """Yield the errors of all implementations: id, argument, curve, message, error."""
     dates = np.array(["2020-01-01", "2020-01-02"], dtype="datetime64[D]")
     masked = np.ma.masked_array([1.0, 2.0, 3.0], mask=[False, True, False])
     refused: list[tuple[str, Any, str]] = [

@@ -1,7 +1,7 @@
 """Plane measures where coordinates, or curves, differ by hundreds of orders of magnitude.
 
-The compiled functions and the reference each meet overflow and underflow in their own ways; what
-they return, and refuse, is the same.
+The compiled functions and the reference each meet overflow and underflow in different ways. Their
+results and errors are the same.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def test_compiled_and_reference_agree(seed):
             if isinstance(found, str) or isinstance(expected, str):
                 assert found == expected, (name, curves)
                 continue
-            # Beside the box of P, which pcm's values are measured in, 1e-15 is rounding.
+            # Relative to the box of P, in which pcm's values are measured, 1e-15 is rounding.
             least = 1e-15 if name == "pcm" else 1e-300
             assert found == pytest.approx(expected, rel=1e-9, abs=least), (name, options, curves)
 

@@ -1,8 +1,8 @@
-"""Objects of other packages are curves with the same value, or refused with the line to write.
+"""Objects of other packages are curves with the same value, or rejected with the line to write.
 
-docs/inputs.md is the table of what is tested here. Packages that are not installed are skipped;
-torch, which weighs gigabytes, and cupy, which needs a graphics card, are stood in for by what
-numpy and curvewise see of them.
+docs/inputs.md has the table of the tested objects. Packages that are not installed are skipped.
+Substitutes replace torch, which takes gigabytes, and cupy, which needs a graphics card: they have
+the attributes that numpy and curvewise use.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ SHAPES = "shapely"
 
 
 class Tensor:
-    """What is seen of a torch tensor."""
+    """The attributes of a torch tensor that are used."""
 
     def __init__(
         self, values: Any, requires_grad: bool = False, device: str = "cpu", dtype: str = "float64"
@@ -46,7 +46,7 @@ class Tensor:
 
 
 class OnTheCard:
-    """What is seen of an array of cupy."""
+    """The attributes of an array of cupy that are used."""
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
         raise TypeError("Implicit conversion to a NumPy array is not allowed. Use `.get()`")

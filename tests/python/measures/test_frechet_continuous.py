@@ -1,8 +1,8 @@
 """The continuous Fréchet distance against the reference in whole numbers, and by its properties.
 
-The bits must be those of the real number rounded up, whatever the curves: points on a grid,
-points on one line, repeated points, walks back and forth.
-benchmarks/speed/frechet_continuous.py does the same with 20,000 pairs.
+The bits must be those of the real number rounded up, for all curves: points on a grid, points on
+one line, repeated points, walks back and forth. benchmarks/speed/frechet_continuous.py does the
+same with 20,000 pairs.
 """
 
 from __future__ import annotations
@@ -162,13 +162,13 @@ def point_at(curve: Array, parameter: float) -> list[Fraction]:
 
 
 def check_leashes(found: curvewise.Matching, P: Array, Q: Array) -> None:
-    """Check that the leash is nowhere above the distance, as a real number."""
+    """Check that no pair distance is above the distance, as a real number."""
     rows = found.parameters
     assert rows[0].tolist() == [0, 0]
     assert rows[-1].tolist() == [len(P) - 1, len(Q) - 1]
     assert (np.diff(rows, axis=0) >= 0).all()
     assert (rows[1:] <= np.floor(rows[:-1]) + 1).all()  # on one edge
-    # On one edge each the leash is longest at an end.
+    # On one edge each, the pair distance is largest at an end.
     for x, y in rows.tolist():
         p, q = point_at(P, x), point_at(Q, y)
         square = sum((a - b) ** 2 for a, b in zip(p, q, strict=True))
@@ -197,7 +197,7 @@ def test_matchings(module: object, rounds: Callable[[int], int]) -> None:
 def test_matchings_of_an_edge_and_a_computed_point_on_it(
     module: object, rounds: Callable[[int], int]
 ) -> None:
-    # The point is beside the edge by less than there is between two parameters.
+    # The point is off the edge by less than the spacing of two parameters.
     edges = [np.array([(7.9, -48.7), (-36.5, 69.9)])]
     rng = np.random.default_rng(4)
     edges += [rng.uniform(-70, 120, (2, 2)).round(1) for _ in range(rounds(300))]
@@ -213,7 +213,7 @@ def test_matchings_of_an_edge_and_a_computed_point_on_it(
 def test_a_matching_keeps_to_where_the_curves_are_close() -> None:
     t = np.linspace(0, 6, 400)
     P, Q = np.column_stack([t, np.sin(t)]), np.column_stack([t, np.sin(t) + 0.01])
-    Q[200, 1] += 0.3  # one leash must be long, and the others need not
+    Q[200, 1] += 0.3  # one pair distance must be large, and the others need not
     found = frechet_continuous_path(P, Q)
     lengths = np.array(
         [math.dist(point_at(P, x), point_at(Q, y)) for x, y in found.parameters.tolist()]

@@ -118,7 +118,7 @@ def test_closed_forms() -> None:
     line, constant = [(0, 0), (4, 4)], [(0, 1), (0.5, 1), (0.7, 1), (3, 1), (4, 1)]
     assert curvewise.area(line, constant, **OPTIONS) == 5.0
     assert curvewise.area([(0, 0), (4, 0)], [(0, 1), (4, -1)], **OPTIONS) == 2.0
-    step = [(0, 0), (1, 0), (1, 2), (3, 2)]  # a jump has no area
+    step = [(0, 0), (1, 0), (1, 2), (3, 2)]  # a jump encloses zero area
     assert curvewise.area(step, [(0, 0), (5, 0)], **OPTIONS) == 4.0
     assert curvewise.area(step, [(0, 0), (5, 0)], squared=True, **OPTIONS) == 8.0
 

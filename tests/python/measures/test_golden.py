@@ -63,7 +63,7 @@ def test_golden_dtw_and_frechet(golden: dict[str, dict[str, Any]]) -> None:
 
 
 def test_area_of_each_preset() -> None:
-    """Crossing lines in P's box, 1 wide and 2 high: half of what they enclose before scaling."""
+    """Crossing lines in P's box, 1 wide and 2 high: half of the enclosed area before scaling."""
     P, Q = [(0, 1), (1, -1)], [(0, -1), (1, 1)]
     area = ["area"]
     assert curvewise.compare(P, Q, measures=area)["area"] == 0.5

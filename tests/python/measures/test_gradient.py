@@ -1,4 +1,6 @@
-"""The derivatives of measures by Q: against differences, homogeneity, and where there is none."""
+"""The derivatives of measures by Q: against differences, homogeneity, and errors without
+derivatives.
+"""
 
 from __future__ import annotations
 
@@ -163,7 +165,7 @@ def test_where_there_is_no_derivative() -> None:
     assert sorted(gradient.tolist()) == [0.0, 1.0]
     # The same tie of two vertices twice: the derivative is that of one of both pairs.
     assert np.abs(value_and_gradient([0, 2], [1, 3], "frechet_continuous")[1]).sum() == 1.0
-    # Chebyshev with two coordinates alike: the first.
+    # Chebyshev with two equal coordinates: the first.
     assert value_and_gradient([[0, 0]], [[2, -2]], metric="chebyshev")[1].tolist() == [[1, 0]]
 
 

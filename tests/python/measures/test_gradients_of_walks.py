@@ -55,7 +55,7 @@ def walks(rng: np.random.Generator, measure: str, options: Options, whole: bool)
     if not whole:
         return [rng.normal(size=(size, d)).cumsum(axis=0) for size in sizes]
     P, Q = (rng.integers(-2, 3, (size, d)).cumsum(axis=0).astype(float) for size in sizes)
-    if measure in ("area", "curve_length"):  # an edge without length is a kink of its own
+    if measure in ("area", "curve_length"):  # an edge of zero length is another kink
         P, Q = (C[np.append(True, np.diff(C, axis=0).any(axis=1))] for C in (P, Q))
     return [P, Q + 0.5]
 

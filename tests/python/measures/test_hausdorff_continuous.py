@@ -26,7 +26,7 @@ def lengths(curve):
 
 
 def drawn(seed, n, m, dim):
-    """Curves of normal numbers, of small whole ones, or one beside the other."""
+    """Curves of normal numbers, of small whole ones, or one next to the other."""
     rng = np.random.default_rng(seed)
     P, Q = rng.normal(size=(n, dim)), rng.normal(size=(m, dim))
     if seed % 3 == 1:
@@ -196,12 +196,12 @@ def test_the_points_attain_it_and_none_is_farther(seed, n, m, dim):
         assert (places >= 0).all()
         assert (places <= [n - 1, m - 1]).all()
         far, near = found.points[way] if way == 0 else found.points[way][::-1]
-        # The point is as far from the other curve as is said, and so is the point nearest to it.
+        # The point is as far from the other curve as reported, and so is the point nearest to it.
         value = found.distances[way]
         assert np.linalg.norm(far - near) == pytest.approx(value, rel=1e-14, abs=rounding)
         (checked,) = distances_by_brute_force(far[None], to)
         assert checked == pytest.approx(value, rel=1e-14, abs=rounding)
-        # Distances change no faster than places: dense points say that none is farther.
+        # Distances change at most as fast as places, so dense points show that no point is farther.
         if len(from_) > 1:
             dense = np.concatenate([x + share * (y - x) for x, y in pairwise(from_)])
             at_points = distances_by_brute_force(dense, to).max()

@@ -1,8 +1,8 @@
 """Distances on the sphere: right to nanometres, and the same bits in every measure and way of it.
 
-The arc is held to mpmath with 40 digits. All else is held to the reference with ==, or to brute
-force, on what a distance of the globe goes wrong at: the poles, the line of 180 degrees, opposite
-points, points that coincide, and tracks as dense as those of a GPS receiver.
+The arc is compared with mpmath with 40 digits. The rest is compared with the reference by ==, or
+with brute force. The points are the difficult ones of the globe: the poles, the line of 180
+degrees, opposite points, points that coincide, and tracks as dense as those of a GPS receiver.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def distance(p: tuple[float, float], q: tuple[float, float], **options: Any) -> 
     return curvewise.dtw([p], [q], **SPHERE, **options)
 
 
-# What docs/measures/recurrences.md states: up to so many metres, errors of at most so many.
+# The claims of docs/measures/recurrences.md: a distance in metres, and the largest error up to it.
 ERRORS = ((5e6, 4e-9), (1.5e7, 16e-9), (1.99e7, 0.5e-6), (math.inf, 0.4))
 
 

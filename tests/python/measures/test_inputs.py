@@ -1,7 +1,8 @@
-"""Whatever numpy.asarray takes gives what the plain array gives, and is not changed by it.
+"""All inputs that numpy.asarray takes give the results of the plain array, and stay unchanged.
 
-Every memory layout and every type that holds the same numbers, for every function that takes
-curves; integers are computed in float64; calls from several threads give what single calls give.
+The tests try every memory layout and every type that holds the same numbers, for every function
+that takes curves. Integers are computed in float64. Calls from several threads give the results of
+single calls.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from test_torch import every_loss, pairs
 
 import curvewise
 
-# Test by test: a file that is skipped whole would not be in the list of what was skipped.
+# Test by test, because a file that is skipped as a whole would not be in the list of skipped tests.
 pytestmark = pytest.mark.skipif(
     find_spec("jax") is None, reason='no JAX: pip install "curvewise[jax]"'
 )

@@ -1,6 +1,7 @@
-"""spacing="matched": what it promises of any curves, and what sampling and noise do to real loops.
+"""spacing="matched": its guarantees for any curves, and the effect of sampling and noise on real
+loops.
 
-That it equals the reference is tested with the other spacings, in test_planar.py.
+test_planar.py compares it with the reference, as it does for the other spacings.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ CURVES = POINTS.map(np.array)
 
 RAISED = np.array((0.0, 0.05))
 
-# Smooth loops, sampled densely: what is left out when they are thinned is next to nothing.
+# Smooth loops, sampled densely: the points that thinning removes are negligible.
 TENSION_COMPRESSION = (
     "dp780_tct_3pct",
     "dp780_tct_6pct",
@@ -63,7 +64,7 @@ def test_it_does_not_depend_on_place_and_units(
     tolerance = {"rel": 1e-12, "abs": 1e-12 * extent}
     away = np.array((eighths, -eighths))
     assert matched(P + away, Q + away) == pytest.approx(area, **tolerance)
-    # A direction in which neither curve has an extent has no units to be measured in.
+    # A direction in which both curves have zero extent does not have units.
     if extent > 0:
         units = (width, height)
         assert matched(P * units, Q * units) == pytest.approx(area * width * height, rel=1e-12)

@@ -1,8 +1,8 @@
-"""A ground distance of the user's own: a matrix, or a function of two blocks of points.
+"""A custom ground distance: a matrix, or a function of two blocks of points.
 
-Held with == to the reference on matrices full of ties, and of pairs that must not meet; and, on
-curves of more rows than the sweep asks for at a time, to the library's own metrics of the same
-numbers.
+Results are compared by == with the reference, on matrices full of ties and of pairs that must not
+meet. On curves of more rows than the sweep requests at a time, they are compared with the library's
+own metrics of the same numbers.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def canberra(p: Array, q: Array) -> Array:
 
 
 class Asked:
-    """A metric that remembers what it was asked for."""
+    """A metric that records its calls."""
 
     def __init__(self, metric: Callable[[Array, Array], Array]) -> None:
         self.metric = metric
@@ -75,7 +75,9 @@ def matrices(draw: st.DrawFn) -> Array:
 
 
 def same(found: Any, expected: Any) -> bool:
-    """Return whether two alignments are the same; where there is no path, their distance alone."""
+    """Return whether two alignments are equal; if there is not a path, compare their distances
+    alone.
+    """
     if np.isinf(expected.distance):
         return bool(found.distance == expected.distance)
     return found.distance == expected.distance and np.array_equal(found.path, expected.path)
@@ -194,7 +196,7 @@ def test_a_large_matrix_is_checked_to_its_end() -> None:
 
 
 def test_the_example_of_dtw_python() -> None:
-    """Of the docstring of its dtw (Giorgino 2009), with the numbers that stand there."""
+    """The example in the docstring of its dtw (Giorgino 2009), with the printed numbers."""
     costs = np.ones((6, 6))
     costs[1, :] = costs[:, 4] = 0.0
     costs[1, 4] = 0.01

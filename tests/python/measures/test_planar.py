@@ -151,7 +151,7 @@ def test_continuous_pcm_equals_the_reference(rounds: Callable[[int], int]) -> No
         shorter = min(length_in_box(P, P), length_in_box(Q, P))
         assert found.value == pytest.approx(expected.value, rel=1e-12, abs=2e-12 * shorter)
         assert found.tolerance == pytest.approx(expected.tolerance, rel=1e-9, abs=1e-27)
-        # A grid is no farther from the minimum than it says.
+        # A grid is at most as far from the minimum as it reports.
         for offsets in (1, 7, 200):
             match = curvewise.pcm_match(P, Q, offsets=offsets)
             assert expected.value <= match.value + 2e-12 * shorter
@@ -217,7 +217,7 @@ def synthetic_loops() -> dict[str, Array]:
 
 
 def runs(rng: np.random.Generator, loop: Array, count: int) -> list[Array]:
-    """Return runs of consecutive vertices, short and long, none of zero length."""
+    """Return runs of consecutive vertices, short and long, all longer than zero."""
     found: list[Array] = []
     while len(found) < count:
         first, last = np.sort(rng.choice(len(loop), 2, replace=False))

@@ -42,7 +42,7 @@ def groups(draw: st.DrawFn, count: int, least: int = 1, dim: int | None = None) 
 
 
 def planar_pairs() -> st.SearchStrategy[list[Array]]:
-    """Draw two curves in the plane, neither of which is a single point."""
+    """Draw two curves in the plane, both longer than a single point."""
     return groups(2, least=2, dim=2).filter(lambda pair: all(np.ptp(c, axis=0).any() for c in pair))
 
 
@@ -266,7 +266,7 @@ def test_pcm_does_not_depend_on_place_and_scale(
     P, Q = pair
     value = curvewise.pcm(P, Q)
     assert curvewise.pcm(P + shift, Q + shift) == value
-    if np.ptp(P, axis=0).all():  # a direction in which P has no extent is not scaled
+    if np.ptp(P, axis=0).all():  # a direction in which P's extent is zero is not scaled
         assert curvewise.pcm(P * (factor, 8.0), Q * (factor, 8.0)) == value
     assert curvewise.pcm(P, P) == pytest.approx(0.0, abs=1e-12)
     assert curvewise.pcm(P, Q, offsets="continuous") <= value

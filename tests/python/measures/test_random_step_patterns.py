@@ -33,7 +33,7 @@ def random_step(rng: Generator) -> Cells:
 
 
 def random_pattern(rng: Generator) -> StepPattern:
-    """Return a pattern; one in three is symmetric, and one in three has no negative weight."""
+    """Return a pattern; one in three is symmetric, and one in three has only positive weights."""
     steps = [random_step(rng) for _ in range(rng.integers(2, 5))]
     if rng.integers(0, 3) == 0:
         steps += [[(columns, rows, weight) for rows, columns, weight in step] for step in steps]
@@ -82,7 +82,7 @@ class Setting(NamedTuple):
         return cls(options, queries, curves, table(queries), table(curves))
 
     def limits(self, rng: Generator) -> Iterator[float]:
-        """Yield a distance itself and a number beside it, negative only where distances may be."""
+        """Yield a distance itself and a number near it, negative only if distances may be."""
         least = -np.inf if has_negative_weight(pattern_of(self.options["step_pattern"])) else 0.0
         finite = self.distances[np.isfinite(self.distances)]
         for limit in (*rng.permutation(finite)[:1], rng.uniform(-5, 15)):
@@ -217,7 +217,7 @@ def all_sums(steps: list[Cells], ground: Any, i: int, j: int) -> Iterator[tuple[
 
 
 def random_ground(rng: Generator) -> Any:
-    """Return distances of which some are infinite, or, now and then, near the largest double."""
+    """Return distances; some are infinite, or, now and then, near the largest double."""
     ground = rng.integers(0, 5, rng.integers(1, 5, 2)).astype(float)
     if rng.integers(0, 3) == 0:
         ground *= 2.0**1021

@@ -1,9 +1,9 @@
-"""The numpy reference against what does not come from it: hand calculation, enumeration, data.
+"""The numpy reference against independent results: hand calculation, enumeration, data.
 
-Every other test takes the reference as the truth, so here nothing is compared with the compiled
-library. Values come from two other packages (the golden data), from the tables of the paper and at
-the ends of the range; in `test_reference_planar.py` from closed forms, in
-`test_reference_warping.py` from enumerating all warping paths of short curves.
+Every other test trusts the reference, so here nothing is compared with the compiled library. Values
+come from two other packages (the golden data), from the tables of the paper and at the ends of the
+range. In `test_reference_planar.py` they come from closed forms, in `test_reference_warping.py`
+from enumerating all warping paths of short curves.
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ def test_golden_values(golden: dict[str, dict[str, Any]]) -> None:
 
 
 def test_curve_length_of_circles_around_the_origin(golden: dict[str, dict[str, Any]]) -> None:
-    # The mean of y is rounding, and what is divided by it noise: the golden value is null.
+    # The mean of y is rounding error, and a quotient by it is noise: the golden value is null.
     circles = golden["circles_c5_c6"]
     assert circles["curve_length"] is None
     with pytest.raises(ValueError, match=r"the mean of P's y is 0 to rounding; use scale='mean_ab"):

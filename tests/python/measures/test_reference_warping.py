@@ -161,7 +161,7 @@ def test_ties_go_to_the_diagonal_then_up_then_left() -> None:
     # To (1, 1): 3 from above, 3 from the left, 4 along the diagonal.
     up = reference.dtw_path([0, 1], [0, -1], step_pattern="symmetric2")
     assert up.path.tolist() == [[0, 0], [0, 1], [1, 1]]
-    # Before (2, 2) the leash is 5 above and on the left, 10 on the diagonal.
+    # Before (2, 2) the value is 5 above and on the left, 10 on the diagonal.
     up = reference.frechet_path([0, 5, 0], [0, -5, 0])
     assert up.path.tolist() == [[0, 0], [0, 1], [1, 2], [2, 2]]
     # With an open end the first of two equal columns is taken.

@@ -74,7 +74,7 @@ def scaled(value: float, exponent: int) -> float:
 
 
 def constants(name: str, degree: int, exponent: int) -> Options | None:
-    """Return constants as large beside curves of the size 2**exponent; None if out of range."""
+    """Return constants that fit curves of the size 2**exponent; None if out of range."""
     result = {key: scaled(value, degree * exponent) for key, value in CONSTANTS[name].items()}
     if name == "erp":
         result = {"gap": scaled(0.3, exponent)}
@@ -116,12 +116,12 @@ def test_constants_that_stay_grow_or_vanish_beside_the_curves(module: Any, expon
         function = getattr(module, name)
         large = function(*curves(exponent), **options, **constants(name, degree, 0))
         grown = constants(name, degree, -exponent)
-        if name == "erp" and degree == 2:  # a gap that has grown has no square
+        if name == "erp" and degree == 2:  # the square of a grown gap overflows
             grown = grown if abs(exponent) < 600 else None
         if grown is not None:
             plain = function(*curves(0), **options, **grown)
             expected = scaled(plain, 0 if name in COUNTS else degree * exponent)
-        elif exponent < 0:  # beside the constants, the curves vanish
+        elif exponent < 0:  # relative to the constants, the curves vanish
             expected = function(*(0 * C for C in curves(0)), **options, **constants(name, 1, 0))
         elif name in COUNTS:  # nothing is as near as the constant
             expected = function(*curves(0), **options, epsilon=1e-9)

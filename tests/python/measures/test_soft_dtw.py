@@ -69,7 +69,7 @@ def test_as_gamma_falls_it_becomes_dtw(n: int) -> None:
 
 @pytest.mark.parametrize("exponent", [-1000, -600, -500, -100, 0, 100, 500, 600, 1000])
 def test_no_gamma_overflows(exponent: int) -> None:
-    """From the least of all up, beside curves of any size."""
+    """From the least of all up, for curves of any size."""
     P, Q = (np.ldexp(C, exponent) for C in (walk(9, 3), walk(12, 4)))
     hard, slopes = value_and_gradient(P, Q, "dtw", metric="sqeuclidean")
     for gamma in (5e-324, 1e-310, 2.0**-1000, 1e-300):
@@ -115,7 +115,7 @@ def test_large_and_small_curves(factor: float) -> None:
 
 
 def test_with_slopes_at_every_size_around_a_strip() -> None:
-    """Strips have 64 rows, and as many as the root of the rows from 4096 on."""
+    """Strips have 64 rows, and the root of the number of rows from 4096 on."""
     for n, m in ((63, 70), (64, 64), (65, 30), (128, 129), (129, 2), (200, 1)):
         P, Q = walk(n, 7, 1), walk(m, 8, 1)
         for window in (None, 5):

@@ -33,7 +33,7 @@ def test_small_differences_beside_large_coordinates(exponent: int) -> None:
                 assert found == 0.0
             assert measure(P, Q, metric="cityblock") == small.sum()
             assert measure(P, Q, metric="chebyshev") == small.max()
-            # Without anything large beside them, no difference is too small.
+            # Without large numbers next to them, no difference is too small.
             assert measure(P[1:], Q[1:]) == pytest.approx(exact, rel=1e-15)
 
 

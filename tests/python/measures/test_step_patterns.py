@@ -1,4 +1,4 @@
-"""Step patterns: against the reference, against R's dtw, and what is known of their paths."""
+"""Step patterns: against the reference, against R's dtw, and known properties of their paths."""
 
 from __future__ import annotations
 

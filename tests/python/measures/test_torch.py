@@ -12,7 +12,7 @@ import pytest
 
 import curvewise
 
-# Test by test: a file that is skipped whole would not be in the list of what was skipped.
+# Test by test, because a file that is skipped as a whole would not be in the list of skipped tests.
 pytestmark = pytest.mark.skipif(
     find_spec("torch") is None, reason='no PyTorch: pip install "curvewise[torch]"'
 )

@@ -32,9 +32,11 @@ def pair() -> tuple[Any, Any]:
 
 @pytest.fixture(scope="module", params=["one thread", "reference"])
 def expected(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a file with what the reference, or one thread of this process, gives for each case.
+    """Return a file with the result of the reference, or of one thread of this process, for each
+    case.
 
-    On so many cells the reference takes seconds; test_bits.py holds one thread to it on fewer.
+    With this number of cells the reference takes seconds; test_bits.py compares one thread with it
+    on fewer.
     """
     P, Q = pair()
     module = reference if request.param == "reference" else curvewise
@@ -48,7 +50,7 @@ def expected(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFa
 
 
 def differences(file: str) -> list[str]:
-    """Return what differs from what is expected, at this process's level."""
+    """Return the differences from the expected results, at this process's level."""
     P, Q = pair()
     expected = np.load(file)
     found = []

@@ -152,7 +152,7 @@ def test_experiment_is_uneven_noisy_and_near_the_simulation(seed):
             evenness = gaps.max() / gaps.min()
             assert evenness > 5.0 if curve is experiment else evenness < 1.0 + 1e-9
         np.testing.assert_allclose(curve[list(turns[1:]), 0], [0.02, -0.02, 0.02], rtol=0.0201)
-    # Along the nearly straight end of the last branch, what is left of a line fit is the noise.
+    # Along the nearly straight end of the last branch, the residual of a line fit is the noise.
     tail = experiment[experiment[:, 0].argmin() :][-40:]
     noise = tail[:, 1] - np.polyval(np.polyfit(*tail.T, 2), tail[:, 0])
     assert 2.0 < noise.std() < 7.0

@@ -21,10 +21,10 @@ from curvewise.commands import command_line as cli
 ROOT = Path(__file__).resolve().parents[3]
 DOCS = ROOT / "docs"
 HEADERS = ROOT / "cpp" / "include" / "curvewise"
-# What the build writes, and git ignores, is no page of ours.
+# Pages that the build writes and git ignores are not tested.
 BUILT = {DOCS / "_build", DOCS / "gallery", DOCS / "api" / "generated"}
 PAGES = [page for page in sorted(DOCS.rglob("*.md")) if BUILT.isdisjoint({page, *page.parents})]
-# Pages show how to use these, and nobody has all of them.
+# Pages show how to use these, and most machines lack some of them.
 OPTIONAL = (
     *("aeon", "dask", "geopandas", "jax", "polars", "shapely", "sklearn", "sktime", "torch"),
     *("movingpandas", "xarray", "zarr"),
@@ -75,8 +75,8 @@ def test_the_code_of_a_page_runs(
 ) -> None:
     """Run a page's blocks in their order; an error of the Python shows the page's line.
 
-    Python runs in one namespace. A command prints what stands behind it, and so does Python where
-    output stands behind it, except for the digits.
+    Python runs in one namespace. The output of a command, and of Python code if output follows it,
+    must be as on the page, except for the digits.
     """
     text = page.read_text(encoding="utf-8")
     blocks = sorted(
@@ -93,7 +93,7 @@ def test_the_code_of_a_page_runs(
             try:
                 exec(compile(before + block[1], str(page), "exec"), names)
             except ImportError as error:
-                # The package's own errors say how to install what was not found.
+                # The package's own errors name the command that installs a missing package.
                 absent = getattr(error.__cause__ or error, "name", None) or ""
                 if absent.partition(".")[0] not in OPTIONAL:
                     raise
@@ -165,7 +165,7 @@ def test_the_readme_has_both_commands_of_the_set_up() -> None:
 
 
 def test_the_exceptions_of_ctrl_c_stand_in_one_place() -> None:
-    """Whoever says how fast Ctrl-C is names the list of its exceptions."""
+    """Each page about the speed of Ctrl-C names the list of its exceptions."""
     for page in (ROOT / "README.md", DOCS / "many_curves.md"):
         (said,) = re.findall(
             r"Ctrl-C ends.*?\.\s", page.read_text(encoding="utf-8"), flags=re.DOTALL
@@ -175,7 +175,9 @@ def test_the_exceptions_of_ctrl_c_stand_in_one_place() -> None:
 
 
 def test_the_worked_example_shows_its_script() -> None:
-    """Its code needs a solver and data: it stands in the script that was run, line by line."""
+    """Its code needs a solver and data, so it is compared line by line with the script that was
+    run.
+    """
     page = (ROOT / "docs" / "worked_example.md").read_text(encoding="utf-8")
     room = ROOT / "benchmarks" / "validation"
     files = (room / "worked_example.py", room / "results" / "worked_example.txt")
@@ -300,7 +302,7 @@ def test_a_markdown_file_that_a_page_links_to_is_a_page_too() -> None:
 
 
 def test_every_path_to_a_benchmark_leads_to_a_file() -> None:
-    """In code, comments and text alike; the changelog may name what was there in its time."""
+    """In code, comments and text; only the changelog may name earlier contents."""
     if not (ROOT / "benchmarks").is_dir():
         pytest.skip("the source distribution has no benchmarks")
     kinds = {".py", ".md", ".rst", ".toml", ".yml", ".txt", ".cpp", ".hpp", ".cmake", ""}

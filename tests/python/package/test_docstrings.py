@@ -28,7 +28,7 @@ FUNCTIONS = sorted(
 def test_examples_run(name: str) -> None:
     try:
         module: ModuleType = importlib.import_module(name)
-    except ImportError as error:  # whose words say how to install what it needs
+    except ImportError as error:  # its message names the command that installs the requirement
         if getattr(error.__cause__, "name", None) not in OPTIONAL:
             raise
         pytest.skip(str(error))

@@ -1,7 +1,7 @@
-"""Ctrl-C, progress and threads: what happens beside a long call.
+"""Ctrl-C, progress and threads during a long call.
 
-No test asserts a time; the calls that are interrupted would go on for half a minute and more. (The
-latencies are measured by benchmarks/speed/interrupts.py.)
+No test asserts a time; the interrupted calls would continue for half a minute and more.
+(benchmarks/speed/interrupts.py measures the latencies.)
 """
 
 from __future__ import annotations

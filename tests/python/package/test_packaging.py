@@ -1,4 +1,4 @@
-"""What pyproject.toml says of the tests of wheels, which nobody builds before a release."""
+"""The tests of wheels in pyproject.toml, since wheels are not built before a release."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 
 def names(requirements: list[str]) -> set[str]:
-    """Return the packages of requirements, as they are imported."""
+    """Return the import names of required packages."""
     return {re.split(r"[^\w-]", one)[0].replace("-", "_") for one in requirements}
 
 

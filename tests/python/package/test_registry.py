@@ -1,8 +1,8 @@
-"""What the layers say of the measures, held together.
+"""The lists of measures in all layers are consistent.
 
-Names, choices, signatures and defaults stand once in each layer: in curvewise._options for Python
-and the reference, beside the enumerators for C++, in curvewise.h for C, in curvewise.f90 for
-Fortran. Whoever changes one of them and not the others learns it here.
+Names, choices, signatures and defaults are defined once in each layer: in curvewise._options for
+Python and the reference, next to the enumerators for C++, in curvewise.h for C, in curvewise.f90
+for Fortran. A change of one without the others fails here.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ CHOICES = {
 
 # C and Fortran have the others.
 OF_CPP_AND_PYTHON = ("hausdorff", "hausdorff_continuous", *get_args(EditDistance))
-# What a measure's options are where they are no other's, or are other than others'.
+# A measure's options that no other measure has, or that differ from the others'.
 OWN_DEFAULTS = {
     "erp": ("gap",),
     "edr": ("epsilon",),
@@ -73,7 +73,9 @@ def positional(function: Any) -> str:
 
 
 def without_bounds(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the options that the library has, too: not those that change what is returned."""
+    """Return the options that the library has, too, without those that change the type of the
+    result.
+    """
     return {key: value for key, value in options.items() if key not in ("bounds", *OF_PYTHON)}
 
 
@@ -145,7 +147,7 @@ def test_every_layer_has_the_same_options_and_defaults(name: str) -> None:
     expected = {
         option: written(option, default) for option, default in options.items() if option != "relax"
     }
-    # Where there are no unions, each kind of value has an option of its own.
+    # In languages without unions, each kind of value has a separate option.
     if name == "dtw":
         expected["window_fraction"] = "0"
         for end in ("p_begin", "p_end", "q_begin", "q_end"):
@@ -163,7 +165,7 @@ def test_functions_of_a_measure_take_its_options(function: str) -> None:
         options.pop(option, None)
     measure = measure_of(function)
     of_measure = keyword_defaults(MEASURES[measure].function) if measure else {}
-    if function.startswith("soft_dtw"):  # a loss, which is no distance, and in no list of them
+    if function.startswith("soft_dtw"):  # a loss, not a distance, and in none of their lists
         of_measure = keyword_defaults(measures.soft_dtw)
     assert options.items() <= of_measure.items()
     plain = {key: value for key, value in options.items() if key not in NOT_OF_THE_REFERENCE}
@@ -250,7 +252,7 @@ def test_the_registry_tells_the_truth(name: str) -> None:
     assert (f"{name}_path" in measures.__all__) == has_path
     assert (f"{name}_residuals" in measures.__all__) == (info.residuals is not None)
     curves = [(1, 2), (2, 5), (4, 1)], [(1, 0), (2, 3), (4, 2)]
-    if name == "edr":  # its threshold goes with the curves
+    if name == "edr":  # its threshold depends on the curves
         return
     scaled = info.function(*curvewise.normalize(*curves))
     assert (scaled == pytest.approx(info.function(*curves), rel=1e-12)) == info.scales_itself
@@ -297,7 +299,7 @@ LIGHT = [name for name in curvewise._LAZY if name not in HEAVY]
 
 
 @pytest.mark.parametrize("names", [LIGHT, *([name] for name in curvewise._LAZY)], ids="-".join)
-@pytest.mark.nightly(r"^\w+$")  # each in a process of its own
+@pytest.mark.nightly(r"^\w+$")  # each in a separate process
 def test_submodules_are_reachable_and_imported_late(names: list[str]) -> None:
     if names[0] in HEAVY:
         pytest.importorskip(names[0], reason=f'no {names[0]}: pip install "curvewise[{names[0]}]"')

@@ -19,10 +19,10 @@ NETWORK = {
     "asyncio", "ftplib", "http", "imaplib", "multiprocessing.connection", "poplib", "requests",
     "smtplib", "socket", "socketserver", "ssl", "telnetlib", "urllib", "webbrowser", "xmlrpc",
 }  # fmt: skip
-# Besides these, whatever reads objects back from bytes and runs what they say.
+# Besides these, all modules that read objects from bytes and execute them.
 UNPICKLERS = {"dill", "joblib", "marshal", "shelve"}
-# By whom pickle is used, and why that is no stranger: bytes that the same call has made, for the
-# processes that it starts.
+# The modules that use pickle. They read only bytes that the same call has made, for the processes
+# that it starts.
 PICKLERS = {"calibration/models/pool.py"}
 EXECUTORS = {"eval", "exec", "os.system", "os.popen", "subprocess.getoutput"}
 

@@ -131,7 +131,7 @@ def test_pictures_name_the_files(tmp_path):
     assert [text.get_text() for text in twice[:2]] == ["test.csv (P)", "test.csv (Q)"]
     table = plotting.plot_table(test, simulated, Figure().subplots())[0].axes
     assert table.get_xlabel() == "index in simulation.csv"
-    frame = pd.DataFrame(P, columns=["file", "stress"])  # whose column is no file
+    frame = pd.DataFrame(P, columns=["file", "stress"])  # its column does not hold a file name
     assert plotting.plot_alignment(frame, Q, Figure().subplots()).P.get_label() == "P"
 
 

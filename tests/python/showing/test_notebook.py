@@ -199,7 +199,7 @@ def test_pictures_are_written_as_vectors(found, kind, begin):
 
 
 def test_the_colours_are_apart_for_any_eye():
-    """By how much colours differ for eyes without green cones (Machado et al. 2009)."""
+    """The difference of colours for eyes without green cones (Machado et al. 2009)."""
     deuteranopia = np.array(
         [
             [0.367322, 0.860646, -0.227968],

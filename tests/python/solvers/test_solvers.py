@@ -358,7 +358,7 @@ def test_what_was_cut_short_is_said(tmp_path: Path, read, text, component, messa
 
 
 def test_ls_dyna_binout(tmp_path: Path) -> None:
-    """Written by the writer that lasso-python has beside its reader."""
+    """Written by the writer that lasso-python provides with its reader."""
     pytest.importorskip("lasso", reason="lasso-python is not installed: curvewise[ls-dyna]")
     from lasso.dyna.lsda_py3 import Lsda
 
@@ -381,7 +381,7 @@ def test_ls_dyna_binout(tmp_path: Path) -> None:
 def test_the_script_for_abaqus_writes_the_histories(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """With a stand-in for Abaqus' module of the attributes that its reference lists."""
+    """With a substitute for Abaqus' module that has the attributes in its reference."""
 
     def history(*values: float) -> Any:
         times = [0.1 * (i + 1) for i in range(len(values))]

@@ -1,4 +1,4 @@
-"""Formulas of study files against Python's own arithmetic, and what is refused."""
+"""Formulas of study files against Python's own arithmetic, and errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Studies of a material in the place of a solver: what curvewise fit finds, from a file."""
+"""Studies of a material instead of a solver: the results of curvewise fit, from a file."""
 
 from __future__ import annotations
 

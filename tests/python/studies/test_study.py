@@ -1,6 +1,6 @@
 """Studies that are right: checked, run, interrupted and resumed, from Python and from the shell.
 
-A Python script stands in the place of the solver: it writes the stress of an elastic-plastic bar.
+A Python script replaces the solver: it writes the stress of an elastic-plastic bar.
 """
 
 from __future__ import annotations
@@ -94,7 +94,7 @@ def model(p: dict[str, float]) -> Any:
     return np.column_stack((STRAIN, 12.5 * stress(p) / 12.5))
 
 
-# A test that is met to the last bit has no noise to speak of.
+# A test that is matched to the last bit would not have noise.
 NOISE = np.random.default_rng(3).normal(0.0, 0.1, STRAIN.size)
 
 
@@ -187,7 +187,7 @@ def test_a_check_runs_once_and_says_what_it_read(
 def test_a_check_asks_the_method_how_many_runs_it_takes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """One that nobody has heard of before, by the name that it has in the file."""
+    """An unknown one, by its name in the file."""
     monkeypatch.setitem(METHODS, "patient", PATIENT)
     text = STUDY.replace("max_runs = 9", 'method = { name = "patient", starts = 7 }')
     printed = str(Study.read(study_file(tmp_path, text)).check())
@@ -384,7 +384,7 @@ def test_a_study_that_is_interrupted_and_killed_ends_with_the_same_bits(
 
 
 def stopped(folder: Path, runs: int, how: signal.Signals) -> tuple[int, str]:
-    """Run the study, and send a signal while it waits for the run after so many more."""
+    """Run the study, and send a signal while it waits for the run after `runs` more."""
     begun = folder / "begun"
     before = begun.stat().st_size if begun.exists() else 0
     (folder / "allowed").write_text(f"{before + runs}")
@@ -401,7 +401,7 @@ def stopped(folder: Path, runs: int, how: signal.Signals) -> tuple[int, str]:
             assert time.monotonic() < deadline, "waited in vain"
             time.sleep(0.02)
         process.send_signal(how)
-        if how == signal.SIGKILL:  # its solver goes on: let it end
+        if how == signal.SIGKILL:  # its solver continues: let it end
             (folder / "allowed").write_text("1000")
         output, _ = process.communicate(timeout=60)
     (folder / "allowed").write_text("1000")
@@ -415,7 +415,7 @@ PAGE = ROOT / "docs" / "study.md"
 
 @pytest.fixture
 def solvers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> set[str]:
-    """Put programs in the place of solvers that are not here, which fail; return those that are."""
+    """Replace missing solvers by programs that fail; return the installed ones."""
     programs = {"ccx", "abaqus", "ls-dyna"}
     here = {program for program in programs if shutil.which(program)}
     for program in programs - here:
@@ -466,7 +466,7 @@ SECTIONS = {
 
 @pytest.mark.parametrize("heading", SECTIONS)
 def test_the_page_has_every_key_and_no_other(heading: str) -> None:
-    """The first cells of a section's table, and what stands in { key = value } there."""
+    """The first cells of a section's table, and the contents of { key = value } there."""
     _, _, section = PAGE.read_text().partition(f"\n{heading}")
     section = re.split(r"^##", section, maxsplit=1, flags=re.MULTILINE)[0]
     cells = re.findall(r"^\| (`[a-z_`, ]+`) \|", section, re.MULTILINE)

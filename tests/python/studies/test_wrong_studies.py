@@ -1,4 +1,4 @@
-"""Wrong studies, and what is said of them: file, line, key, what is wrong, and what to write."""
+"""Wrong studies, and their messages: file, line, key, the error, and the correction."""
 
 from __future__ import annotations
 
@@ -184,7 +184,7 @@ WRONG = {
         "",
         "study.toml, line 11: model has no timeout; give the seconds that a run may take",
     ),
-    # What tests/fuzz/fuzz_study.py has found: errors that were none of a study's.
+    # Found by tests/fuzz/fuzz_study.py: errors that did not name a study.
     "a number that is longer than Python reads": (
         "b = [-5, 5]",
         f"b = [0, {5000 * '9'}]",
