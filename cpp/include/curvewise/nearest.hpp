@@ -1,26 +1,26 @@
 /// \file
-/// The nearest of many curves, exactly: for each curve of a list the k curves of an index that have
-/// the smallest distances from it, or all within a radius, under any measure.
+/// The nearest of many curves, exactly. For each curve of a list, a search finds the k curves of an
+/// index with the smallest distances from it, or all within a radius, under any measure.
 ///
 ///     const curvewise::Index index(library, curvewise::DtwOptions{});
 ///     std::vector<double> distances(tests.size() * 5);
 ///     std::vector<std::int64_t> places(tests.size() * 5);
 ///     index.kneighbors(tests, 5, distances.data(), places.data(), {-1});  // on all cores
 ///
-/// The answers are those of cdist and a stable sort, to the bit, for any number of threads: of
-/// equal distances the earlier curve is the nearer. dtw, frechet and frechet_continuous have lower
-/// bounds, cheap beside a distance: candidates are looked at in the order of their bounds, each
-/// bound is raised before a distance is computed, and one that is above the k-th best distance so
-/// far ends its pair (the optimal multi-step search of Seidl & Kriegel 1998). What is computed then
-/// ends where the cutoff shows that it will be above. Measures without bounds compute every pair,
-/// with the cutoff.
+/// The answers are bitwise identical to those of cdist and a stable sort, for any number of
+/// threads: among equal distances, the earlier curve is the nearer. dtw, frechet and
+/// frechet_continuous have lower bounds, which are cheap compared with a distance. Candidates are
+/// tested in the order of their bounds, and each bound is raised before a distance is computed. A
+/// bound above the k-th best distance so far ends its pair (the optimal multi-step search of Seidl
+/// & Kriegel 1998). A computation ends as soon as the cutoff shows that its distance is larger.
+/// Measures without bounds compute every pair, with the cutoff.
 ///
-/// Time: for N curves of n points, N cheap bounds a query, and the distances that are left, O(n^2)
-/// each. Memory: at most 1.5 times that of the points from 128 numbers a curve on, and little more
-/// than once from 1,000 on; some twice for frechet_continuous, and three times for dtw and frechet
-/// on the sphere. All functions may be called from any number of threads; add()
-/// prepares its curves while searches run. Then it waits for searches that began before it, and
-/// later searches wait for it.
+/// Time: for N curves of n points, N cheap bounds a query, and O(n^2) for each remaining distance.
+/// Memory, relative to that of the points: at most 1.5 times from 128 numbers a curve on, and
+/// little more than once from 1,000 on. It is about twice for frechet_continuous, and three times
+/// for dtw and frechet on the sphere. Any number of threads may call all functions. add() prepares
+/// its curves while searches run. Then it waits for searches that began before it, and later
+/// searches wait for it.
 #pragma once
 
 #include <cstddef>
@@ -41,27 +41,27 @@ struct Neighbor {
     double distance;
 };
 
-/// What a search did, added up over its queries.
+/// Counts of a search, added up over its queries.
 struct SearchRecord {
     std::int64_t pairs = 0;
     std::int64_t refined = 0;   ///< of these, pairs whose bound was raised
-    std::int64_t computed = 0;  ///< and pairs of which a distance was begun
+    std::int64_t computed = 0;  ///< and pairs whose distance was begun
 };
 
-/// How a search is run, and what it returns.
+/// Options of a search, and of its result.
 struct SearchOptions {
-    /// Threads for this call, -1 for one per core, each with a query of its own at a time. (The
-    /// `workers` of the measure are not used.)
+    /// Threads for this call, -1 for one per core. Each takes one query at a time. (The `workers`
+    /// of the measure are not used.)
     std::ptrdiff_t workers = 1;
     /// Whether the neighbours within a radius come by distance, then index, or by index alone.
     bool sort_results = true;
-    /// Whether the distances of the neighbours within a radius are wanted. If not, and if they are
-    /// not to be sorted by them, they are nan where a measure decides faster that they are within.
+    /// Whether to compute the distances of the neighbours within a radius. If false, and if they do
+    /// not order the result, a distance is nan if the measure has a faster decision.
     bool with_distances = true;
     SearchRecord* record = nullptr;
 };
 
-/// Curves that are asked for their nearest, again and again.
+/// Curves to search for the nearest of other curves.
 class Index {
    public:
     /// Owns a copy of the curves. Throws as cdist does, naming the curve (curves[3]).
@@ -75,23 +75,23 @@ class Index {
     Index& operator=(const Index&) = delete;
     CURVEWISE_EXPORT ~Index();
 
-    /// All of them, or, where it throws, none. Throws std::logic_error where a Report of a call of
-    /// this index calls it, since it waits for the end of that call.
+    /// Adds all of the curves, or none if it throws. Throws std::logic_error if a Report of a call
+    /// of this index calls it, since it waits for the end of that call.
     CURVEWISE_EXPORT void add(const std::vector<CurveView>& curves, Control* control = nullptr);
     CURVEWISE_EXPORT std::size_t size() const;
     /// Copies of the points: valid as long as the index.
     CURVEWISE_EXPORT std::vector<CurveView> curves() const;
 
-    /// Writes the n_neighbors nearest of X[i] (as P, the curves of the index as Q) to
-    /// distances[i * n_neighbors] and indices[i * n_neighbors] on, in ascending order. Throws
-    /// std::invalid_argument for what the measure refuses, naming the curve (X[2]), before any
-    /// work, and for an n_neighbors that is not from 1 to size(); std::bad_alloc; Stopped. Progress
-    /// counts every pair, computed or not.
+    /// Writes the n_neighbors nearest of X[i] (as P, the curves of the index as Q) to distances[i *
+    /// n_neighbors] and indices[i * n_neighbors] on, in ascending order. Throws before any work:
+    /// std::invalid_argument as the measure does, with the name of the curve (X[2]), and for an
+    /// n_neighbors that is not from 1 to size(). Throws std::bad_alloc and Stopped. Progress counts
+    /// every pair, computed or not.
     CURVEWISE_EXPORT void kneighbors(const std::vector<CurveView>& X, std::ptrdiff_t n_neighbors,
                                      double* distances, std::int64_t* indices,
                                      const SearchOptions& options = {},
                                      Control* control = nullptr) const;
-    /// Of every curve of the index, which is no neighbour of itself.
+    /// The same for every curve of the index, without the curve itself.
     CURVEWISE_EXPORT void kneighbors(std::ptrdiff_t n_neighbors, double* distances,
                                      std::int64_t* indices, const SearchOptions& options = {},
                                      Control* control = nullptr) const;

@@ -32,7 +32,7 @@ using runtime::FairMutex;
 using runtime::Poller;
 using runtime::Use;
 
-// What is asked: of curve `i` of the queries, by what is left out of the targets, or -1.
+// Answers one query: for curve `i` of the queries, without the target `left_out`, or -1.
 using Answer = std::function<void(NeighborSearch& search, TargetQuery& query, std::size_t i,
                                   std::int64_t all_steps, std::ptrdiff_t left_out)>;
 
@@ -91,7 +91,7 @@ class QueryRun {
     SearchRecord record_;
 };
 
-// The threads that have a lock; a thread stands as often as it has taken it.
+// The threads that hold a lock; a thread is listed once for each time it has taken it.
 class Holders {
    public:
     void add() {

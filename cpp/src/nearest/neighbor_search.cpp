@@ -80,7 +80,7 @@ std::vector<Neighbor> NeighborSearch::nearest(TargetQuery& query, std::int64_t a
     return best_;
 }
 
-// Raises the bound until another candidate, or none, comes first.
+// Raises the bound until another candidate comes first, or no candidate remains.
 void NeighborSearch::look_at(TargetQuery& query, Candidate candidate) {
     if (candidate.level == 0 && query.levels() > 1) ++record_.refined;
     while (candidate.level + 1 < query.levels()) {

@@ -1,10 +1,10 @@
 // The search for the nearest targets of one query, by one thread (see curvewise/nearest.hpp).
 //
-// Candidates stand in a heap by their bounds. The one with the smallest is taken out: if its bound
-// can be raised it is, and the candidate goes back; if not, its distance is computed. The search
-// ends where the smallest bound is above the k-th best distance: strictly, since an equal distance
-// with a smaller index would still come first. O(N) time for N targets, and O(log N) for each that
-// is taken out, besides bounds and distances.
+// A heap holds the candidates by their bounds. The candidate with the smallest bound is removed. If
+// its bound can be raised, it is, and the candidate returns to the heap; if not, its distance is
+// computed. The search ends if the smallest bound is above the k-th best distance. The comparison
+// is strict, since an equal distance with a smaller index would still come first. O(N) time for N
+// targets, and O(log N) for each removal, in addition to bounds and distances.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ namespace curvewise::nearest {
 using pairwise::TargetQuery;
 using runtime::Poller;
 
-// Smaller distances first, then smaller indices; distances that are no numbers last.
+// Smaller distances first, then smaller indices; NaN distances last.
 bool is_nearer(const Neighbor& a, const Neighbor& b) noexcept;
 
 class NeighborSearch {
@@ -30,7 +30,7 @@ class NeighborSearch {
     // Throw Stopped where the poller of `call` says so. Count `all_steps` as done.
     NeighborSearch(const pairwise::Targets& targets, Poller& poller);
 
-    // The `count` nearest, in order. `left_out`: a target that is not looked at, or -1.
+    // The `count` nearest, in order. `left_out`: a target to skip, or -1.
     std::vector<Neighbor> nearest(TargetQuery& query, std::int64_t all_steps, std::ptrdiff_t count,
                                   std::ptrdiff_t left_out);
     // All within `radius`, by index; the distances are nan where they are not wanted.

@@ -1,10 +1,11 @@
 // The best runs of one curve for another (see curvewise/subsequence.hpp).
 //
-// The table is swept with its paths' origins. In its last row two paths never cross, since one that
-// meets another goes on with it: the origins rise with the ends. So an answer from `start` to
-// `stop` concerns the ends from start to stop, which go, and those behind whose paths began no
-// later than stop: some columns, which are swept again as a piece of their own. All others stay the
-// best of their piece, to the bit: a minimum that is attained in a smaller set is its minimum too.
+// The table is swept with its paths' origins. In its last row, two paths never cross, since a path
+// that meets another continues with it: the origins rise with the ends. So an answer from `start`
+// to `stop` affects two kinds of ends. The ends from start to stop are removed. The ends behind
+// them whose paths began no later than stop are swept again, as a separate section. All other ends
+// remain the best of their section, with bitwise identical values: a minimum that is attained in a
+// smaller set is also its minimum.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -127,7 +128,7 @@ class SubsequenceSearch {
         sweep(problem_, {1, n - 1, first, columns}, false, values.data(), destination);
     }
 
-    // A run that is an answer, and what it makes of the ends behind it.
+    // Removes a run that is an answer, and updates the ends behind it.
     void remove(std::ptrdiff_t start, std::ptrdiff_t stop) {
         for (std::ptrdiff_t j = start; j <= stop; ++j) values_[j] = origins_[j] = infinity;
         const std::ptrdiff_t first = stop + 1;

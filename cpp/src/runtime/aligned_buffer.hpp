@@ -1,7 +1,7 @@
 // Uninitialised storage for doubles, aligned to a cache line so that no SIMD load of a strip's
-// points crosses one. May be used again and again: it grows, and forgets its content, on demand.
-// A line more is allocated than is wanted, and the first aligned place in it is taken: an allocator
-// hands out small blocks of its own alignment much faster than those of another.
+// points crosses one. It can be reused: it grows on demand, and then forgets its content. It
+// allocates one line more than requested and takes the first aligned place in it. An allocator
+// returns small blocks of its own alignment much faster than blocks of another alignment.
 #pragma once
 
 #include <cstddef>

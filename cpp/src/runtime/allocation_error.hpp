@@ -1,4 +1,4 @@
-// Large arrays, with a message that says how large when there is no memory for one.
+// Large arrays. If memory runs out, the message gives the size of the array.
 #pragma once
 
 #include <cstddef>

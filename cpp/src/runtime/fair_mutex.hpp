@@ -1,6 +1,6 @@
-// A mutex for readers and writers that serves them in the order in which they come: a writer waits
-// for the readers before it, and later readers wait for the writer. The locks of the system prefer
-// readers, and a writer may then wait for ever.
+// A mutex for readers and writers that serves them in the order of their requests. A writer waits
+// for the readers before it, and later readers wait for the writer. The system's locks prefer
+// readers, and a writer may then wait forever.
 #pragma once
 
 #include <chrono>

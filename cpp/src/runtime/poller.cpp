@@ -26,7 +26,8 @@ bool Poller::poll() {
     if (control_ == nullptr) return false;
     effort_ = 0;
     publish_count();
-    // The total is reported once, at the end: threads may still be at work on what is counted.
+    // The total is reported once, at the end, because threads may still be at work on counted
+    // steps.
     if (role_ == Role::caller && !stopped() && Clock::now() >= next_report_) {
         report(std::max<std::int64_t>(control_->total() - 1, 0));
     }

@@ -46,13 +46,13 @@ class Poller {
         effort_ += effort;
         if (effort_ >= effort_between_polls && poll()) throw Stopped();
     }
-    // Whether steps are counted, as they are at first, or lead to polls only. Returns what was so
-    // before.
+    // Whether steps are counted (the default), or only lead to polls. Returns the previous setting.
     bool set_counting(bool is_counting) noexcept {
         return std::exchange(is_counting_, is_counting);
     }
-    // While the caller shares its work with other threads, which nothing may leave behind, what a
-    // report throws stops the call and is kept for rethrow_failure(). Returns what was so before.
+    // For a caller that shares its work with other threads, which no exception may leave behind: an
+    // exception of a report stops the call and is kept for rethrow_failure(). Returns the previous
+    // setting.
     bool set_sharing(bool is_sharing) noexcept { return std::exchange(is_sharing_, is_sharing); }
     void rethrow_failure() {
         if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
@@ -64,8 +64,8 @@ class Poller {
         if ((i & 0xffff) == 0 && poll()) throw Stopped();
     }
     // Calls visit(first, end) for one run of 0 .. count - 1 after the other, and polls between
-    // them; throws Stopped. A run is as long as some 10^5 elements of which each index stands for
-    // `elements`: the loop inside is free of polls, and may be vectorised.
+    // them; throws Stopped. A run has about 10^5 elements, and each index counts as `elements`. The
+    // inner loop has no polls, so compilers can vectorise it.
     template <class Visit>
     void in_runs(std::ptrdiff_t count, std::ptrdiff_t elements, Visit visit) {
         constexpr std::ptrdiff_t elements_in_a_run = 1 << 17;
@@ -87,12 +87,12 @@ class Poller {
    private:
     using Clock = std::chrono::steady_clock;
 
-    // Some 20 µs of work: a look at the clock, and a write that other threads see, are nothing
-    // beside it.
+    // About 20 µs of work. Reading the clock, and a write that other threads see, are negligible
+    // compared with it.
     static constexpr std::int64_t effort_between_polls = 1 << 15;
 
     void publish_count() noexcept;
-    // Reports what is done, or `most` where that is less.
+    // Reports the completed steps, or `most` if that is less.
     void report(std::int64_t most);
 
     Control* control_;

@@ -1,5 +1,5 @@
-// Several vectors that grow together, or, where memory runs out, not at all: room is made in each
-// of them first, which may fail, and only then are elements moved, which may not.
+// Several vectors that grow together, or not at all if memory runs out. First, memory is reserved
+// in each of them, which may fail. Only then are elements moved, which cannot fail.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace curvewise::runtime {
 
-// Room for `more` elements; at least twice what there is, so that many small steps stay cheap. An
-// empty vector needs none: move_behind() gives it the other's.
+// Reserves memory for `more` elements; at least twice the current number, so that many small steps
+// stay cheap. An empty vector reserves nothing: move_behind() gives it the other's memory.
 template <class T>
 void make_room(std::vector<T>& to, std::size_t more) {
     if (to.empty()) return;

@@ -14,8 +14,8 @@ namespace {
 // How long a thread that waits for another sleeps at most before it looks at its poller.
 constexpr std::chrono::milliseconds nap(20);
 
-// Looks before a waiting thread sleeps: some 50 µs, which is less than waking it up may take. Each
-// offers its core to whoever else wants it.
+// Tests before a waiting thread sleeps: about 50 µs, which may be less than the time to wake it up.
+// Each test yields its core to other threads.
 constexpr int looks = 200;
 
 }  // namespace
@@ -26,7 +26,7 @@ std::ptrdiff_t resolve_workers(std::ptrdiff_t workers) {
         throw std::invalid_argument("workers is " + std::to_string(workers) +
                                     "; give a whole number >= 1, or -1 for all cores");
     }
-    // More than there are cores anywhere: what is multiplied by it must not overflow.
+    // More than the cores of any machine, but small enough that products with it do not overflow.
     constexpr std::ptrdiff_t most = 1 << 14;
     return std::min(workers, most);
 }
@@ -62,7 +62,7 @@ void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work) {
         --at_work;
     }
     work(0, poller);
-    // Not joined at once: the poller goes on reporting, and hears of a stop, to the end.
+    // Not joined at once: the poller continues to report, and to check for a stop, until the end.
     for (std::unique_lock<std::mutex> lock(mutex); at_work > 0;) {
         ended.wait_for(lock, nap, [&] { return at_work == 0; });
         lock.unlock();

@@ -13,19 +13,19 @@
 
 namespace curvewise::runtime {
 
-// The number of threads that `workers` asks for: -1 is one per core. Throws std::invalid_argument
-// for 0 and for what is below -1.
+// The number of threads for `workers`: -1 is one per core. Throws std::invalid_argument for 0 and
+// for numbers below -1.
 std::ptrdiff_t resolve_workers(std::ptrdiff_t workers);
 
-// Calls work(w, poller) for w = 0, 1, ... in up to `count` threads, this one among them as 0, with
-// `poller`; the others have watches of their own. Where the system refuses a thread, fewer do the
-// work: `work` must share itself out. It must not throw. What a report throws is thrown when all
-// threads have ended.
+// Calls work(w, poller) for w = 0, 1, ... in up to `count` threads. This thread is 0 and has
+// `poller`; the other threads have their own pollers. If the system refuses a thread, fewer threads
+// do the work, so `work` must share itself out. `work` must not throw. An exception of a report is
+// thrown when all threads have ended.
 using Work = std::function<void(std::ptrdiff_t w, Poller& poller)>;
 void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work);
 
 // Strips handed out from top to bottom, each following the one above it. A strip is taken only
-// after the one above it was, by a thread that goes on until it is finished, so that waiting
+// after the one above it, by a thread that continues until the strip is finished, so that waiting
 // always ends.
 class Pipeline {
    public:
@@ -42,7 +42,7 @@ class Pipeline {
     bool is_finished(std::ptrdiff_t strip) const noexcept;
 
    private:
-    // On a cache line of its own: written by one thread, read by another.
+    // Has a separate cache line, because one thread writes it and another reads it.
     struct alignas(64) FinishedColumns {
         std::atomic<std::ptrdiff_t> columns{0};
     };
