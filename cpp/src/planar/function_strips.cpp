@@ -69,7 +69,7 @@ void check_is_function(const CheckedCurve& checked, runtime::Poller& poller) {
         if (step * direction < 0.0) {
             throw std::invalid_argument(
                 checked.name + "[" + std::to_string(i) +
-                "] turns back in x; area with spacing='function' needs x that only rises or only "
+                "] reverses in x; area with spacing='function' needs x that only rises or only "
                 "falls: sort the points by x, or choose another spacing");
         }
         if (step != 0.0) direction = step;

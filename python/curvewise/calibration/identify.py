@@ -167,7 +167,9 @@ def identify(
     else:
         beside = {"experiments": experiments is not None, "measure": measure != "area"}
         if given := [name for name, is_given in beside.items() if is_given] + list(options):
-            raise ValueError(f"{', '.join(given)} given beside cases; give them to each Case")
+            raise ValueError(
+                f"{', '.join(given)} given together with cases; give them to each Case"
+            )
         objective = cases.objective()
     plan = replace(plan, method=plan.method.chosen_for(objective))
     for one in objective.measures:

@@ -84,7 +84,7 @@ def _window(text: str) -> Window:
     with contextlib.suppress(ValueError):
         if 0 < (fraction := float(text)) < 1:
             return fraction
-    raise argparse.ArgumentTypeError(f"{text} is no whole number, and not between 0 and 1")
+    raise argparse.ArgumentTypeError(f"{text} is neither an integer nor between 0 and 1")
 
 
 def _options(

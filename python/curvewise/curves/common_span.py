@@ -54,7 +54,7 @@ def common_span(P: CurveLike, Q: CurveLike, *, by: int = 0) -> tuple[Array, Arra
         if back.size:
             row = int(back[0]) + 1
             raise ValueError(
-                f"column {by} of {name} turns back at row {row}, from {x[row - 1]} to {x[row]}; a "
+                f"column {by} of {name} reverses at row {row}, from {x[row - 1]} to {x[row]}; a "
                 "common span needs a column that ascends, such as a time"
             )
         columns.append(x)

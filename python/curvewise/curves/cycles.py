@@ -198,7 +198,7 @@ def cycles_of(points: Array, column: int, reversal: float) -> list[Cycle]:
     found = [*_complete(record, x, [int(turn) for turn in turns], reversal)]
     if not found:
         raise ValueError(
-            f"the curve has no complete cycle: it turns {len(turns)} time"
+            f"the curve lacks a complete cycle: it reverses {len(turns)} time"
             f"{'' if len(turns) == 1 else 's'}; a smaller reversal= counts smaller cycles, and "
             "column= names the coordinate that drives the test"
         )

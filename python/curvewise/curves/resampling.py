@@ -282,7 +282,7 @@ def _places(
         allowed = 0.0 if metric == "haversine" else _NOISE
         if back.max() > allowed * (places[-1] - places[0]):
             raise ValueError(
-                f"what to space by turns back in {name}, by {back.max():.3g} before point "
+                f"the values of by reverse in {name}, by {back.max():.3g} before point "
                 f"{branch.start + int(back.argmax())}; give all turns, or use by='arc_length'"
             )
         if back.any():

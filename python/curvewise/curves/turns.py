@@ -135,7 +135,7 @@ def last_cycle(curve: CurveLike, *, column: int = 0, reversal: float = 0.1) -> s
         if way * (x[end] - x[begin]) >= -missing:
             return slice(begin, end + 1)
     raise ValueError(
-        f"the curve has no complete cycle: it turns {len(turns)} time"
-        f"{'' if len(turns) == 1 else 's'}, and after two turns it never comes back to the first; "
+        f"the curve lacks a complete cycle: it reverses {len(turns)} time"
+        f"{'' if len(turns) == 1 else 's'}, and after two reversals it never returns to the first; "
         "compare all of it"
     )

@@ -114,8 +114,7 @@ def factor_of(given: float | str, units: str = "MPa") -> float:
     if word in STRESSES:
         if (target := in_mpa(units)) is None:
             raise ValueError(
-                f"the factor is {given!r}, and {units!r} is no unit that it can be converted to; "
-                "give a number"
+                f"the factor is {given!r}, which cannot be converted to {units!r}; give a number"
             )
         return STRESSES[word] / target
     for known in (STRAINS, FORCES, LENGTHS):

@@ -131,7 +131,7 @@ def _rest_of(stream: BinaryIO, file: str) -> bytes:
     rest = stream.read(LARGEST_OF_PIPE + 1)
     if len(rest) > LARGEST_OF_PIPE:
         raise ValueError(
-            f"{file} is a pipe, of which at most {LARGEST_OF_PIPE // 2**20} MiB are read; write it "
+            f"{file} is a pipe, and at most {LARGEST_OF_PIPE // 2**20} MiB are read; write it "
             "to a file"
         )
     return rest

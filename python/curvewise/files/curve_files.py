@@ -246,7 +246,7 @@ def _read_columns(
         return read_sheet_columns(path, columns, reading)
     if reading.sheet is not None:
         raise ValueError(
-            f"sheet is {reading.sheet!r}, and {os.fspath(path)} is no workbook; leave sheet out"
+            f"sheet is {reading.sheet!r}, and {os.fspath(path)} is not a workbook; omit sheet"
         )
     if kind == ".mat":
         from .mat_curves import read_mat_columns

@@ -188,7 +188,7 @@ class NumberTable:
 def say_left_out(file: str, row: str, wrong: Sequence[int], count: int) -> None:
     """Warn of omitted rows, given by their numbers, out of `count` rows."""
     if len(wrong) == count:
-        raise ValueError(f"{file}: none of {count} {row}s is made of finite numbers")
+        raise ValueError(f"{file}: no {row} of {count} consists of finite numbers")
     if wrong:
         warn(
             f"{file}: {len(wrong)} of {count} {row}s left out, not made of finite numbers; the "

@@ -29,7 +29,9 @@ def with_lengths_of_lists(lengths: Any, of_lists: tuple[Any, Any]) -> tuple[Any,
     if lengths is None:
         return of_lists
     if not (isinstance(lengths, tuple | list) and len(lengths) == 2):
-        raise TypeError("lengths is no pair; give lengths=(those of P, those of Q), either or None")
+        raise TypeError(
+            "lengths is not a pair; give lengths=(those of P, those of Q), either or None"
+        )
     for given, known, name in zip(lengths, of_lists, "PQ", strict=True):
         if given is not None and known is not None:
             raise TypeError(f"{name} is a list, whose curves have lengths; give None for it")

@@ -60,7 +60,7 @@ def _rising(curve: Array, name: str) -> Array:
     back = np.flatnonzero(steps[moving[1:]] != steps[moving[:-1]])
     if len(back):
         raise ValueError(
-            f"{name}[{moving[back[0] + 1] + 1}] turns back in x; area with spacing='function' "
+            f"{name}[{moving[back[0] + 1] + 1}] reverses in x; area with spacing='function' "
             "needs x that only rises or only falls: sort the points by x, or choose another spacing"
         )
     return curve[::-1] if curve[-1, 0] < curve[0, 0] else curve

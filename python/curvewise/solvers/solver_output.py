@@ -271,7 +271,7 @@ def as_whole(text: str, place: str) -> int:
     """Return the number of a node or an element, as :func:`as_number` does."""
     number = as_number(text, place)
     if not number.is_integer():
-        fault = f"{text.strip()[:40]!r} is no whole number"
+        fault = f"{text.strip()[:40]!r} is not an integer"
         raise ValueError(f"{place}: {fault}; was the run cut short?")
     return int(number)
 

@@ -215,7 +215,7 @@ class _Parser:
             hint = (
                 did_you_mean([name], _FUNCTIONS, shown=str) or f"; there is {', '.join(_FUNCTIONS)}"
             )
-            raise self._error(f"there is no function {name!r}{hint}")
+            raise self._error(f"unknown function {name!r}{hint}")
         arguments = [self._sum()]
         while self._take(","):
             arguments.append(self._sum())

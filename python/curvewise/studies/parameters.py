@@ -74,7 +74,9 @@ def _bounds(
         raise ValueError("has both below and scale = 'log'; give one of them")
     if said.below:
         if said.below not in before:
-            raise ValueError(f"stays below {said.below!r}, which is no parameter listed before it")
+            raise ValueError(
+                f"stays below {said.below!r}, which is not a parameter listed before it"
+            )
         return Below(said.below, *said.bounds)
     return Log(*said.bounds) if said.scale == "log" else said.bounds
 

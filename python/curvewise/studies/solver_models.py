@@ -24,12 +24,12 @@ def _command(source: Source, path: KeyPath, value: Any) -> tuple[str, ...]:
     """Read a command; a program with a path is relative to the file."""
     if isinstance(value, str):
         listed = ", ".join(f'"{word}"' for word in value.split())
-        raise ValueError(f"is {value!r}; there is no shell: give a list, [{listed}]")
+        raise ValueError(f"is {value!r}; commands run without a shell: give a list, [{listed}]")
     program, *arguments = keys.texts(value)
     if os.sep in program:
         program = str(source.folder / program)
     if shutil.which(program) is None:
-        raise ValueError(f"starts with {program!r}, and there is no such program on this machine")
+        raise ValueError(f"starts with {program!r}, which does not exist on this machine")
     return program, *arguments
 
 
@@ -45,7 +45,7 @@ def _scratch(source: Source, path: KeyPath, value: Any) -> Path:
     """Read a folder that is there, or can be made when a run needs it."""
     folder = source.resolved(value)
     if folder.exists() and not folder.is_dir():
-        raise ValueError(f"is {folder}, which is no folder")
+        raise ValueError(f"is {folder}, which is not a folder")
     return folder
 
 

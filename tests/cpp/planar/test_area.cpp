@@ -306,7 +306,7 @@ void functions_of_x() {
         CHECK_THROWS(area(line, Q, of_x), std::invalid_argument, message);
     };
     refuses_of_x(Curve{{0.0, 0.0}, {2.0, 0.0}, {1.0, 0.0}},
-                 "Q[2] turns back in x; area with spacing='function' needs x that only rises or "
+                 "Q[2] reverses in x; area with spacing='function' needs x that only rises or "
                  "only falls: sort the points by x, or choose another spacing");
     refuses_of_x(Curve{{4.0, 0.0}, {5.5, 0.0}},
                  "P spans x from 0 to 4 and Q from 4 to 5.5; area with spacing='function' needs a "

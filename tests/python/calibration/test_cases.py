@@ -180,9 +180,13 @@ def test_cases_that_are_wrong(cases, message):
 
 
 def test_what_belongs_to_a_case_is_not_given_beside_it():
-    with pytest.raises(ValueError, match="measure given beside cases; give them to each Case"):
+    with pytest.raises(
+        ValueError, match="measure given together with cases; give them to each Case"
+    ):
         identify(three_cases(), measure=Criterion(weights=[1, 2, 3]), bounds=BOUNDS, **QUIET)
-    with pytest.raises(ValueError, match="window given beside cases; give them to each Case"):
+    with pytest.raises(
+        ValueError, match="window given together with cases; give them to each Case"
+    ):
         identify(three_cases(), window=3, bounds=BOUNDS, **QUIET)
     with pytest.raises(TypeError, match="identify needs bounds"):
         identify(three_cases())
@@ -301,7 +305,10 @@ def test_a_start_among_ordered_and_logarithmic_parameters():
     [
         ({"a": Log(0.0, 1.0)}, "a logarithm needs low above 0"),
         ({"a": Log(1.0, 1.0)}, "low < high"),
-        ({"a": Below("b", 0.0, 1.0), "b": (0.0, 1.0)}, "a stays below 'b', which is no parameter"),
+        (
+            {"a": Below("b", 0.0, 1.0), "b": (0.0, 1.0)},
+            "a stays below 'b', which is not a parameter",
+        ),
         ({"b": (0.0, 1.0), "a": Below("b", 2.0, 3.0)}, "a cannot stay below b within their bounds"),
         ({"a": 1.0}, "every parameter is fixed"),
     ],

@@ -101,7 +101,7 @@ def test_open_brackets_take_linear_time(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("<<E>>\n<<nu>>", "deck.inp, line 2: <<nu>> is no parameter; the parameters are E"),
+        ("<<E>>\n<<nu>>", "deck.inp, line 2: <<nu>> is not a parameter; they are E"),
         ("0.3", "no template has a placeholder <<E>>"),
         ("<<E*2>>", r"<<E\*2>> is malformed"),
         ("<<>>", "<<>> is malformed"),

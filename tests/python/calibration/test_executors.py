@@ -95,7 +95,7 @@ def test_executors_that_are_none_and_that_break():
     with pytest.raises(TypeError, match="executor is int; give one as concurrent"):
         identify(line, EXPERIMENT, BOUNDS, executor=3, **KEYWORDS)
     threads = ThreadPoolExecutor(1)
-    with pytest.raises(ValueError, match="workers is 2 beside an executor"):
+    with pytest.raises(ValueError, match="workers is 2, but the executor"):
         identify(line, EXPERIMENT, BOUNDS, executor=threads, workers=2, **KEYWORDS)
     threads.shutdown()
     with ProcessPoolExecutor(1) as processes:

@@ -36,7 +36,11 @@ LINE = {"model": line, "experiments": EXPERIMENT, "bounds": {"a": (0, 10)}}
         ({"measure": "freched"}, ValueError, "unknown measure .*you mean 'frechet'"),
         ({"preset": "raw"}, TypeError, r"keyword; use measure=Criterion\('area', preset=...\)"),
         ({"presett": "raw"}, TypeError, "area has no option 'presett'; .*you mean 'preset'"),
-        ({"measure": Criterion(), "spacing": "x"}, TypeError, "spacing given beside a Criterion"),
+        (
+            {"measure": Criterion(), "spacing": "x"},
+            TypeError,
+            "spacing given together with a Criterion",
+        ),
         ({"max_run": 5}, TypeError, "no option 'max_run'.*'max_runs'"),
         ({"spaceing": "x"}, TypeError, "no option 'spaceing'; it has .*you mean 'spacing'"),
         ({"measure": "dtw", "windw": 3}, TypeError, "no option 'windw'.*you mean 'window'"),

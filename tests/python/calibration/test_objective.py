@@ -102,7 +102,7 @@ def test_sum_of_squares_interpolates_at_the_experiments_x():
     ("simulation", "reason"),
     [
         ([(0.0, 0.0), (1.0, 0.0)], "covers x from 0 to 1"),
-        ([(0.0, 0.0), (2.0, 0.0), (1.0, 0.0)], "turns back"),
+        ([(0.0, 0.0), (2.0, 0.0), (1.0, 0.0)], "reverses"),
         ([(0.0, 0.0), (2.0, math.nan)], "not finite"),
     ],
 )
@@ -216,7 +216,7 @@ def test_experiment_is_copied():
         (([(0, 0)],), r"P has shape \(1, 2\); area needs at least 2 points"),
         ((np.empty((0, 2)),), r"P has shape \(0, 2\)"),
         ((np.zeros((4, 3)),), r"\(4, 3\)"),
-        ((EXPERIMENT, "sum_of_squares"), "x of P turns back"),
+        ((EXPERIMENT, "sum_of_squares"), "x of P reverses"),
         ((EXPERIMENT, "shape"), "unknown measure 'shape'; choose from area, pcm"),
     ],
 )

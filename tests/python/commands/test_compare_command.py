@@ -70,7 +70,7 @@ def test_options_of_area_and_dtw_replace_those_of_the_preset(run, compared, file
     for window in ("1.5", "wide"):
         status, _, error = run("compare", *files, *given, "--window", window)
         assert status == USAGE
-        assert f"{window} is no whole number, and not between 0 and 1" in error
+        assert f"{window} is neither an integer nor between 0 and 1" in error
     assert run("compare", *files, "--spacing", "even")[0] == USAGE
     assert_failed(run("compare", *files, "--window", "-1"), "window is -1; give a whole number")
     of_area = ("--measures", "area", "--window", "5")

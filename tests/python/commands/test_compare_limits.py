@@ -60,7 +60,7 @@ def test_the_common_span_is_compared(run, files):
     assert "A.csv, 30 points" in out
     np.savetxt("B.csv", [(0, 0), (1, 1), (0.5, 2)], delimiter=",")
     assert_failed(
-        run("compare", *files, "--common-span"), "column 0 of Q turns back at row 2", "Q is B.csv"
+        run("compare", *files, "--common-span"), "column 0 of Q reverses at row 2", "Q is B.csv"
     )
 
 

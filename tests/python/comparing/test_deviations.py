@@ -139,7 +139,7 @@ def test_the_largest_is_never_below_the_mean(
     try:
         found = of(measure[0], P, Q, preset, **measure[1])
     except ValueError as error:
-        refused = ("zero length", "turns back in x", "needs a common span")
+        refused = ("zero length", "reverses in x", "needs a common span")
         assume(not any(words in str(error) for words in refused))
         raise
     assert 0.0 <= found.mean <= found.largest

@@ -35,7 +35,7 @@ def test_any_column_that_does_not_turn_back():
 def test_curves_without_a_span_are_refused():
     line = [(0.0, 0.0), (1.0, 1.0)]
     with pytest.raises(
-        ValueError, match=r"column 0 of Q turns back at row 2, from 1.0 to 0.5; a common span needs"
+        ValueError, match=r"column 0 of Q reverses at row 2, from 1.0 to 0.5; a common span needs"
     ):
         common_span(line, [(0, 0), (1, 0), (0.5, 0)])
     for later in ([(2, 0), (3, 0)], [(1, 0), (3, 0)]):

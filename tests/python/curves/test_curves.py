@@ -86,13 +86,16 @@ def test_last_complete_cycle(turns: list[float], cycle: tuple[float, float]) -> 
 @pytest.mark.parametrize(
     ("turns", "message"),
     [
-        ([0, 2], "it turns 0 times, and"),
-        ([0, 2, -2], "it turns 1 time, and"),
-        ([0, 2, -2, 1], "it turns 2 times, and after two turns it never comes back to the first"),
+        ([0, 2], "it reverses 0 times, and"),
+        ([0, 2, -2], "it reverses 1 time, and"),
+        (
+            [0, 2, -2, 1],
+            "it reverses 2 times, and after two reversals it never returns to the first",
+        ),
     ],
 )
 def test_a_curve_without_a_complete_cycle(turns: list[float], message: str) -> None:
-    with pytest.raises(ValueError, match=f"no complete cycle: {message}"):
+    with pytest.raises(ValueError, match=f"a complete cycle: {message}"):
         curves.last_cycle(zigzag(turns, 10))
 
 
@@ -137,7 +140,7 @@ def test_equal_curves_sampled_otherwise_become_equal() -> None:
         ({"count": 1}, ValueError, "count is 1; a branch needs at least 2"),
         ({"count": 2.5}, TypeError, "count is 2.5; give a whole number"),
         ({"count": [3, 3]}, ValueError, r"count has shape \(2,\); there are 1 branches"),
-        ({"count": 5, "by": 0}, ValueError, "turns back in branch 0, by 1 before point 2;"),
+        ({"count": 5, "by": 0}, ValueError, "reverse in branch 0, by 1 before point 2;"),
         ({"count": 5, "by": 2}, ValueError, "column is 2; the curve has columns 0 to 1"),
         ({"count": 5, "by": "time"}, ValueError, "unknown by 'time'"),
         ({"count": 5, "by": [1, 2]}, ValueError, r"by has shape \(2,\); give one value for each"),

@@ -155,7 +155,9 @@ def test_a_record_that_ends_early_closes_where_it_ends():
 def test_no_complete_cycle_is_refused(x):
     record = np.column_stack((x, x))
     for function in EVERY:
-        with pytest.raises(ValueError, match=r"the curve has no complete cycle: it turns \d time"):
+        with pytest.raises(
+            ValueError, match=r"the curve lacks a complete cycle: it reverses \d time"
+        ):
             function(record)
 
 

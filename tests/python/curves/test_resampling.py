@@ -139,7 +139,7 @@ def test_names_stay() -> None:
     [
         ({"metric": "cityblock"}, "unknown metric 'cityblock'; choose from euclidean, haversine"),
         ({"metric": "haversine", "by": 0}, "metric='haversine' interpolates between points on"),
-        ({"metric": "haversine", "by": [0.0, 2.0, 1.9]}, "turns back in branch 0, by 0.1 before"),
+        ({"metric": "haversine", "by": [0.0, 2.0, 1.9]}, "reverse in branch 0, by 0.1 before"),
         ({"metric": "haversine", "curve": np.eye(3)}, "needs 2 coordinates, longitude and latitu"),
         ({"metric": "haversine", "curve": [(0, 0), (0, 91)]}, r"curve\[1, 1\] is 91; metric='hav"),
         ({"metric": "haversine", "curve": [(9, 5), (0, 0), (180, 0)]}, "points 1 and 2 are opposi"),

@@ -185,7 +185,7 @@ def test_factors_change_units(tmp_path: Path) -> None:
         read_curve(file, factors=[2.0])
     with pytest.raises(ValueError, match="each must be finite and not 0"):
         read_curve(file, factors=[0.0, 1.0])
-    with pytest.raises(ValueError, match=r"sheet is 1, and .*test\.csv is no workbook"):
+    with pytest.raises(ValueError, match=r"sheet is 1, and .*test\.csv is not a workbook"):
         read_curve(file, sheet=1)
 
 

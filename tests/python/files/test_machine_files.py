@@ -188,7 +188,7 @@ def test_rows_that_are_not_numbers_are_left_out_and_counted(read) -> None:
         assert read(content, skip_invalid=True) == [[0, 1], [3, 4]]
     assert len(said) == 1
     assert read("0;1\n1;2\n", skip_invalid=True) == [[0, 1], [1, 2]]
-    with pytest.raises(ValueError, match="none of 2 lines is made of finite numbers"):
+    with pytest.raises(ValueError, match="no line of 2 consists of finite numbers"):
         read("e;s\n1;a\n2;a\n", skip_invalid=True)
     with pytest.raises(ValueError, match="line 3 has 3 cells"):  # may be a decimal comma
         read("e,s\n0,1\n0,5,1\n", skip_invalid=True)

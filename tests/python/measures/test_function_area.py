@@ -138,8 +138,8 @@ def test_the_ends_of_the_range(exponent: int) -> None:
 
 
 REFUSED = [
-    ([(0, 0), (1, 0), (1, 2), (0.5, 0)], [(0, 0), (1, 1)], r"^P\[3\] turns back in x; area with"),
-    ([(0, 0), (1, 0)], [(3, 0), (2, 1), (2.5, 1)], r"^Q\[2\] turns back in x; area with spacing="),
+    ([(0, 0), (1, 0), (1, 2), (0.5, 0)], [(0, 0), (1, 1)], r"^P\[3\] reverses in x; area with"),
+    ([(0, 0), (1, 0)], [(3, 0), (2, 1), (2.5, 1)], r"^Q\[2\] reverses in x; area with spacing="),
     ([(0, 0), (4, 4)], [(5, 3), (4, 0)], "^P spans x from 0 to 4 and Q from 4 to 5; area with"),
     ([(1, 0), (1, 4)], [(5, 3), (0, 0)], "^P spans x from 1 to 1 and Q from 0 to 5; area with"),
 ]
@@ -171,7 +171,7 @@ def test_batches() -> None:
         lambda: curvewise.pdist([curves[0], loop], "area", **OPTIONS),
         lambda: curvewise.Prepared(loop, "area", **OPTIONS)(curves[0]),
     ):
-        with pytest.raises(ValueError, match=r"\[2\] turns back in x"):
+        with pytest.raises(ValueError, match=r"\[2\] reverses in x"):
             call()
 
 

@@ -172,7 +172,7 @@ def test_the_errors_of_lists(name) -> None:
     P, Q = curves_of([3, 5], 0), curves_of([4, 5], 1)
     with pytest.raises(TypeError, match="P is a list, whose curves have lengths; give None for it"):
         measured(name, "dtw", P, Q, lengths=([3, 5], None))
-    with pytest.raises(TypeError, match="lengths is no pair"):
+    with pytest.raises(TypeError, match="lengths is not a pair"):
         measured(name, "dtw", padded(P), padded(Q), lengths=[3, 5, 4])
     with pytest.raises(ValueError, match=r"lengths of Q have shape \(3,\) and its batch has shape"):
         measured(name, "dtw", padded(P), padded(Q), lengths=([3, 5], [4, 5, 5]))

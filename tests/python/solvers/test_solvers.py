@@ -296,8 +296,8 @@ DAT = " displacements (vx,vy) for set A and time  {}\n\n {}\n"
 @pytest.mark.parametrize(
     ("read", "text", "message"),
     [
-        (read_calculix_dat, DAT.format("1.0", "inf 1. 2."), "line 3: 'inf' is no whole number"),
-        (read_calculix_dat, DAT.format("1.0", "1.5 1. 2."), "line 3: '1.5' is no whole number"),
+        (read_calculix_dat, DAT.format("1.0", "inf 1. 2."), "line 3: 'inf' is not an integer"),
+        (read_calculix_dat, DAT.format("1.0", "1.5 1. 2."), "line 3: '1.5' is not an integer"),
         (read_calculix_dat, DAT.format("x", "7 1. 2."), "line 1: 'x' is no number; was the run cu"),
         (read_calculix_frd, FRD + " -1  x\n", "line 3: 'x' is no number; was the run cut short?"),
         (read_calculix_frd, FRD + " -1\n", "line 3: a number is missing; was the run cut short?"),

@@ -192,7 +192,7 @@ def test_what_is_wrong_is_said(tmp_path: Path, right: str, wrong: str, message: 
 def test_a_test_without_a_cycle_and_an_elastic_one(tmp_path: Path) -> None:
     cut = STUDY.replace('name = "STEEL"', 'cycles = "last"')
     said = r"tests\[1\] cannot drive a material: "
-    with pytest.raises(StudyError, match=f"{said}the curve has no complete cycle"):
+    with pytest.raises(StudyError, match=f"{said}the curve lacks a complete cycle"):
         Study.read(write(tmp_path, cut, LOOP[:70]))
     with pytest.raises(StudyError, match=f"{said}is elastic"):
         Study.read(write(tmp_path, STUDY, np.array([(0.0, 0.0), (5e-4, 100.0), (1e-3, 200.0)])))

@@ -79,13 +79,13 @@ WRONG = {
     "a command as for a shell": (
         f"command = ['{sys.executable}', \"deck.py\"]",
         'command = "ccx -i deck"',
-        "study.toml, line 12: model.command is 'ccx -i deck'; there is no shell: give a list, "
-        '["ccx", "-i", "deck"]',
+        "study.toml, line 12: model.command is 'ccx -i deck'; commands run without a shell: give a "
+        'list, ["ccx", "-i", "deck"]',
     ),
     "a program that is not there": (
         f"command = ['{sys.executable}', \"deck.py\"]",
         'command = ["cxc", "-i", "deck"]',
-        "study.toml, line 12: model.command starts with 'cxc', and there is no such program on "
+        "study.toml, line 12: model.command starts with 'cxc', which does not exist on "
         "this machine",
     ),
     "bounds the wrong way round": (
@@ -215,7 +215,7 @@ WRONG = {
     "scratch that is a file": (
         "timeout = 60",
         'timeout = 60\nscratch = "test.csv"',
-        "study.toml, line 15: model.scratch is {folder}/test.csv, which is no folder",
+        "study.toml, line 15: model.scratch is {folder}/test.csv, which is not a folder",
     ),
     "workers that nobody is": (
         "workers = 1",

@@ -149,11 +149,11 @@ class CommandModel:
         program = shutil.which(command[0])
         if program is None:
             raise FileNotFoundError(
-                f"there is no program {command[0]!r}; install it, or give its path"
+                f"the program {command[0]!r} does not exist; install it, or give its path"
             )
         if scratch is not None and not Path(scratch).is_dir():
             raise FileNotFoundError(
-                f"there is no folder {os.fspath(scratch)!r} for scratch; make it"
+                f"the scratch folder {os.fspath(scratch)!r} does not exist; create it"
             )
         self.parameters = tuple(parameters)
         self.command = [os.path.abspath(program), *command[1:]]  # the run's folder is another one

@@ -80,7 +80,7 @@ class ModelPool:
         if workers == 0 or workers < -1:
             raise ValueError(f"workers is {workers}; give at least 1, or -1 for one per core")
         if executor is not None and workers != 1:
-            raise ValueError(f"workers is {workers} beside an executor, which has its own; drop it")
+            raise ValueError(f"workers is {workers}, but the executor has its own; omit workers")
         if executor is not None and not callable(getattr(executor, "submit", None)):
             raise TypeError(
                 f"executor is {type(executor).__name__}; give one as concurrent.futures has, such "

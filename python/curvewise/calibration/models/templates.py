@@ -59,7 +59,7 @@ def read_templates(
             raise ValueError(f"a template is called {log}, as the log is; rename it")
     for path in paths:
         if not path.is_file():
-            raise FileNotFoundError(f"there is no template {os.fspath(path)!r}")
+            raise FileNotFoundError(f"the template {os.fspath(path)!r} does not exist")
     return [_parse(path) for path in paths]
 
 
@@ -100,7 +100,7 @@ def check_names(templates: Sequence[Template], parameters: Sequence[str]) -> Non
         used.add(placeholder.name)
         if placeholder.name not in parameters:
             raise ValueError(
-                f"{placeholder.place} is no parameter; the parameters are {', '.join(parameters)}"
+                f"{placeholder.place} is not a parameter; they are {', '.join(parameters)}"
             )
         try:
             format(1.0, placeholder.format)

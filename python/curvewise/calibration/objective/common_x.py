@@ -59,11 +59,9 @@ def check_common_x(P: Array, abscissa: Abscissa = 0) -> None:
     steps = np.diff(P[:, abscissa])
     if (steps > 0).any() and (steps < 0).any():
         if abscissa:
-            raise ValueError(
-                f"column {abscissa} of P turns back; give one that grows, such as time"
-            )
+            raise ValueError(f"column {abscissa} of P reverses; give one that grows, such as time")
         raise ValueError(
-            "x of P turns back; sum_of_squares compares at a common x: use area, dtw or another "
+            "x of P reverses; sum_of_squares compares at a common x: use area, dtw or another "
             "measure for loops, or abscissa='points' if the simulation has the points of P"
         )
 
@@ -86,7 +84,7 @@ def differences(P: Array, Q: Array, *, abscissa: Abscissa = 0) -> Array:
     if x[0] > x[-1]:
         x, y = x[::-1], y[::-1]
     if (np.diff(x) < 0).any():
-        raise ValueError(f"{name} of the simulation turns back; sum_of_squares needs it monotonic")
+        raise ValueError(f"{name} of the simulation reverses; sum_of_squares needs it monotonic")
     wanted = P[:, abscissa]
     low, high = wanted.min(), wanted.max()
     slack = _SLACK * (high - low)

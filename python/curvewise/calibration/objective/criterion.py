@@ -220,7 +220,7 @@ def criterion_of(
     """
     if isinstance(measure, Criterion):
         if options:
-            raise TypeError(f"{', '.join(options)} given beside a Criterion; give it to that")
+            raise TypeError(f"{', '.join(options)} given together with a Criterion; set them there")
         return measure
     if own := [name for name in options if name in _SETTINGS]:
         settings = ", ".join(f"{name}=..." for name in own)

@@ -117,7 +117,7 @@ class Space:
     def _index(self, name: str, other: str) -> int:
         if other not in self.bounds:
             raise ValueError(
-                f"{name} stays below {other!r}, which is no parameter with bounds before it"
+                f"{name} stays below {other!r}, which is not a parameter with bounds before it"
             )
         return list(self.bounds).index(other)
 
