@@ -38,7 +38,7 @@ def check() -> None:
 
 
 def flushes_subnormals() -> bool:
-    """Say whether this thread computes without subnormal numbers."""
+    """Return whether this thread computes without subnormal numbers."""
     smallest = sys.float_info.min
     return smallest / 2.0 == 0.0 or smallest * 0.5 == 0.0
 

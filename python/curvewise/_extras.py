@@ -13,7 +13,7 @@ __all__ = ["extra", "foreign_reader", "required"]
 
 @contextmanager
 def extra(name: str, needed: str, advice: str = "") -> Iterator[None]:
-    """Say how to install the extra `name` where an import inside the block fails.
+    """Explain how to install the extra `name` if an import in the block fails.
 
     The message begins with `needed`, e.g. "a plot needs matplotlib", and ends with `advice`.
     """
@@ -25,7 +25,7 @@ def extra(name: str, needed: str, advice: str = "") -> Iterator[None]:
 
 @contextmanager
 def foreign_reader(file: str, kind: str, advice: str) -> Iterator[None]:
-    """Say that a file is damaged where another package's reader fails on it, in whatever way."""
+    """Report a file as damaged if another package's reader fails on it."""
     try:
         yield
     except (ImportError, MemoryError):
@@ -41,6 +41,6 @@ def foreign_reader(file: str, kind: str, advice: str) -> Iterator[None]:
 
 
 def required(module: str) -> Any:
-    """Return a module of the extra `calibration`, or say how to install it."""
+    """Return a module of the extra `calibration`, or explain its installation."""
     with extra("calibration", f"curvewise.calibration needs {module.partition('.')[0]}"):
         return import_module(module)

@@ -317,7 +317,7 @@ def _refused(*_: Any) -> NoReturn:
 
 
 def _stays() -> bool:
-    """Say whether JAX computes in float64, and not on the CPU."""
+    """Return whether JAX computes in float64, and not on the CPU."""
     return jax.default_backend() != "cpu" and bool(jax.config.jax_enable_x64)
 
 

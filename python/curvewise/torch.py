@@ -288,7 +288,7 @@ def _computed(P: Tensor, Q: Tensor, measure: str, options: Any, by: Any, lengths
 
 
 def _stays(curves: Tensor) -> bool:
-    """Say whether a Tensor is on a device that computes in float64 and is not the CPU."""
+    """Return whether a Tensor is on a device that computes in float64 and is not the CPU."""
     return curves.device.type not in ("cpu", "mps")
 
 

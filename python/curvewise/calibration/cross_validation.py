@@ -192,7 +192,7 @@ def _fold(
     identification: Identification,
     keywords: dict[str, Any],
 ) -> Fold:
-    """Return what the identification without a loop makes of that loop."""
+    """Return the prediction of a loop by the identification without it."""
     objective = identification.problem.objective
     simulation: Any
     try:

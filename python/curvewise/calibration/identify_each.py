@@ -145,12 +145,12 @@ def identify_each(
             found[name] = identification_of(problem, plan, known)
             known = found[name].runs_with_curves
         _go_on(found, replace(plan, method=searching), known)
-    # A temporary store is gone by now; what comes after the searches runs without it.
+    # A temporary store has been deleted; later runs do not use it.
     return SeveralMeasures({n: replace(one, execution=afterwards) for n, one in found.items()})
 
 
 def _go_on(found: dict[str, Identification], plan: Plan, known: tuple[Run, ...]) -> None:
-    """Search again by each measure from what all have found, as long as one of them gains."""
+    """Repeat the searches from the best of all, while one of them gains."""
     closer = {n: plan.method.chosen_for(f.problem.objective).closer() for n, f in found.items()}
     waiting = [name for name, method in closer.items() if method is not None]
     for _ in range(_ROUNDS):

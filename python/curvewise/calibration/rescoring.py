@@ -1,6 +1,6 @@
 """Look at the runs of a store with another measure, other weights or another part of the test.
 
-The curves are there, so nothing is run. Cost: the measure, for every run and loop.
+The curves are stored, so no model runs. Cost: the measure, for every run and loop.
 """
 
 from __future__ import annotations

@@ -124,7 +124,7 @@ def _checks() -> Iterator[tuple[MeasureInfo, dict[str, Any]]]:
 
 
 def _is_slow(info: MeasureInfo, options: dict[str, Any]) -> bool:
-    """Tell whether the reference goes cell by cell, with the steps of any recurrence."""
+    """Return whether the reference goes cell by cell, with the steps of any recurrence."""
     patterns = ("symmetric1", "symmetric2")
     return info.name in _EDITS or options.get("step_pattern", patterns[0]) not in patterns
 
@@ -168,7 +168,7 @@ def _digest(results: list[list[Any]]) -> str:
 def _agree(
     info: MeasureInfo, options: dict[str, Any], results: list[Any], pair: tuple[Array, Array]
 ) -> bool:
-    """Tell whether the reference says of two curves what the compiled library does."""
+    """Return whether the reference says of two curves what the compiled library does."""
     if info.name == "frechet_continuous":
         return _is_rounded_up(results[0], *pair)
     has_bits = info.warping is not None and info.name not in _EDITS
@@ -180,7 +180,7 @@ def _agree(
 
 
 def _is_rounded_up(value: float, P: Array, Q: Array) -> bool:
-    """Tell whether a value is the least double that is not below the continuous distance."""
+    """Return whether a value is the least double that is not below the continuous distance."""
     below = float(np.nextafter(value, 0.0))
     is_enough = reference.frechet_within(P, Q, value)
     return is_enough and (value == 0.0 or not reference.frechet_within(P, Q, below))

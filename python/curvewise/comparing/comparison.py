@@ -318,7 +318,7 @@ def _values(
 
 
 def _are_valid(measure: str, options: Mapping[str, Any]) -> bool:
-    """Say whether a measure takes options, whatever the curves are."""
+    """Return whether a measure takes options, whatever the curves are."""
     try:
         is_symmetric(measure, dict(options))  # it checks the options too
     except (TypeError, ValueError):

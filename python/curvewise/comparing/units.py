@@ -1,4 +1,4 @@
-"""Whether two curves are in the same units, as far as their extents tell. Time O(n + m).
+"""Checks by their extents whether two curves have the same units. O(n + m).
 
 Per cent against a fraction, MPa against Pa: the widths or heights of the two boxes differ by a
 factor that no model is wrong by. If they do so in both columns, and not with one curve's columns
@@ -47,7 +47,7 @@ def other_units(P: Array, Q: Array, axes: Sequence[str], p_name: str, q_name: st
 
 
 def unlike_its_test(test: Array, simulation: Array, axes: Sequence[str]) -> list[str]:
-    """Return what looks wrong with a simulation: swapped columns, other units, another sign.
+    """Return signs of swapped columns, other units or another sign.
 
     Each is a question with what to look at. Numbers, and simulations of other dimensions, are not
     checked.
@@ -56,7 +56,7 @@ def unlike_its_test(test: Array, simulation: Array, axes: Sequence[str]) -> list
     ----------
     test, simulation : ndarray, shapes (n, d) and (m, d)
     axes : sequence of str
-        What the coordinates are called.
+        The names of the coordinates.
     """
     if len(test) < 2 or test.shape[1] != simulation.shape[1]:
         return []

@@ -212,7 +212,7 @@ def _curves(exp_data: CurveLike, num_data: CurveLike) -> tuple[Array, Array]:
 
 
 def _is_compiled(metric: str | Callable[..., float], options: dict[str, Any]) -> bool:
-    """Tell whether the compiled library has the metric with these of cdist's options."""
+    """Return whether the compiled library has the metric with these of cdist's options."""
     if metric == "minkowski" and options.keys() == {"p"}:
         p = options["p"]
         return isinstance(p, (int, float, np.integer, np.floating)) and bool(p >= 1)

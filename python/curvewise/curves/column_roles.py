@@ -32,12 +32,12 @@ _ON_EARTH = {
 
 
 def is_time(name: Any) -> bool:
-    """Say whether a column is time by its name, with or without a unit."""
+    """Return whether a column is time by its name, with or without a unit."""
     return isinstance(name, str) and _TIME.fullmatch(name.strip()) is not None
 
 
 def are_coordinates(names: Sequence[Any]) -> bool:
-    """Say whether names are those of the coordinates of one point.
+    """Return whether names are those of the coordinates of one point.
 
     Accepted names are numbers, consecutive letters (x, y, z), or components (xx, yy, xy). They may
     be alone or the part in which longer names differ. A place on the Earth is accepted too. Units
@@ -58,7 +58,7 @@ def are_coordinates(names: Sequence[Any]) -> bool:
 
 
 def are_names(columns: Sequence[Any]) -> bool:
-    """Say whether columns have names, and not the numbers that pandas and polars give them."""
+    """Return whether columns have names, and not the numbers that pandas and polars give them."""
     return not all(re.fullmatch(r"(column_)?\d+", _text(column)) for column in columns)
 
 

@@ -199,7 +199,7 @@ def columns_as_curves(table: Any, name: str) -> str:
 
 
 def is_curve_of_another_package(thing: Any) -> bool:
-    """Say whether something without an array's `ndim` is a curve: a table or a line."""
+    """Return whether something without an array's `ndim` is a curve: a table or a line."""
     return bool(column_names(thing)) or getattr(thing, "geom_type", "") in _LINES
 
 

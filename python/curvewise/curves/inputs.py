@@ -76,7 +76,7 @@ def as_curve(curve: Any, name: str, keep_float32: bool = False) -> Array:
 
 
 def _knows_its_layout(curve: Any, names: list[Any]) -> bool:
-    """Say whether a curve is a table whose columns have names, or a line."""
+    """Return whether a curve is a table whose columns have names, or a line."""
     return are_names(names) or (is_curve_of_another_package(curve) and not names)
 
 
@@ -144,7 +144,7 @@ def _refuse_masked(values: Any, curve: Any, name: str) -> None:
 
 
 def _has_masked(curve: Any, depth: int = 2) -> bool:
-    """Say whether entries are masked: of an array, or of the rows of a list.
+    """Return whether entries are masked: of an array, or of the rows of a list.
 
     Out of a list, numpy takes masked rows as if they were not.
     """

@@ -115,7 +115,7 @@ def ask_about_curves(*curves: Any, batched: bool = False) -> None:
 
 
 def _in_doubt(curves: Sequence[Any]) -> bool:
-    """Say whether all curves have the same n, and more coordinates than points."""
+    """Return whether all curves have the same n, and more coordinates than points."""
     first = curves[0].shape[-2:]
     if len(first) < 2 or not first[1] > first[0] > 0 or _settled.get():
         return False

@@ -112,7 +112,7 @@ def _of_callable(metric: Callable[[Array, Array], Any], P: Array, Q: Array) -> B
 
 
 def _is_of_two_points(metric: Callable[[Array, Array], Any], p: Array, q: Array) -> bool:
-    """Say whether a function that refuses blocks returns a number for two points."""
+    """Return whether a function that refuses blocks returns a number for two points."""
     try:
         return isinstance(metric(p, q), numbers.Real)
     except Exception:

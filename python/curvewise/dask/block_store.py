@@ -250,5 +250,5 @@ def _zarr() -> Any:
 
 
 def _renames(version: str) -> bool:
-    """Say whether this zarr writes chunks whole or not at all."""
+    """Return whether this zarr writes chunks whole or not at all."""
     return tuple(map(int, re.findall(r"\d+", version)[:3])) >= (3, 1, 3)

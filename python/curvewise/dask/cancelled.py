@@ -38,7 +38,7 @@ def watch() -> Callable[[int, int], None] | None:
 
 
 def _scheduler_test() -> Callable[[], bool]:
-    """Say whether the main thread has left the call of dask's scheduler that it is in now."""
+    """Return whether the main thread has left the call of dask's scheduler that it is in now."""
     waiting = _scheduler_call()
     return lambda: waiting is not None and _scheduler_call() != waiting
 
@@ -56,7 +56,7 @@ def _scheduler_call() -> int | None:
 
 
 def _cluster_test() -> Callable[[], bool]:
-    """Say whether the cluster's worker that runs this thread's task has cancelled it."""
+    """Return whether the cluster's worker that runs this thread's task has cancelled it."""
     distributed: Any = sys.modules.get("distributed")
     try:
         worker = distributed.get_worker()

@@ -1,4 +1,4 @@
-"""Curves from files of any kind: text, Excel, MATLAB. The kind is told from the name's ending.
+"""Curves from files of any kind (text, Excel, MATLAB), by the file's suffix.
 
 Text is read here alone (csv_curves.py); Excel through pandas and MATLAB through scipy, which are
 imported where such a file is read. Time and memory are linear in the size of the file.
@@ -213,7 +213,7 @@ def read_named_columns(
         raise MemoryError(
             f"{os.fspath(path)} takes more memory than there is; give a part of it"
         ) from error
-    # What pictures call the columns.
+    # The names of the columns in plots.
     titles = [
         titled(f"column {name}" if name.isdecimal() else name, unit)
         for name, unit in zip(names, units, strict=True)

@@ -32,7 +32,7 @@ def decoded(data: bytes) -> str:
 
 
 def _is_gbk(data: bytes) -> bool:
-    """Say whether the bytes above ASCII are pairs of GB 2312, and most of them common ones."""
+    """Return whether the bytes above ASCII are pairs of GB 2312, and most of them common ones."""
     runs = _HIGH.findall(data)
     if not runs or not all(map(_PAIRS.fullmatch, runs)):
         return False

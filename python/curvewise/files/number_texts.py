@@ -49,12 +49,12 @@ _MISSING = re.compile(r"(?i)#(?:n/a|div/0!|value!|ref!|name\?|num!|null!)|n/?a|n
 
 
 def is_number(cell: Any) -> bool:
-    """Say whether a cell is a number by one decimal sign or the other, nan and inf included."""
+    """Return whether a cell is a number by one decimal sign or the other, nan and inf included."""
     return any(to_number(cell, sign) is not None for sign in SIGNS)
 
 
 def may_be_number(cell: Any) -> bool:
-    """Say whether a person would read a cell as a number, or as one that is missing."""
+    """Return whether a person would read a cell as a number, or as one that is missing."""
     if not isinstance(cell, str):
         return is_number(cell)
     if is_number(cell) or _MISSING.fullmatch(cell) or cell.startswith("="):  # a formula
@@ -64,7 +64,7 @@ def may_be_number(cell: Any) -> bool:
 
 
 def is_grouped(text: str) -> bool:
-    """Say whether a text is a number with blanks or apostrophes between thousands."""
+    """Return whether a text is a number with blanks or apostrophes between thousands."""
     return _APART.fullmatch(text.translate(_MINUS)) is not None
 
 

@@ -163,7 +163,7 @@ def _may_be_joined(
 
 
 def _may_be_split(rows: Sequence[list[str]], names: Sequence[str]) -> bool:
-    """Say whether the commas between cells may be decimal signs: no cell has a point."""
+    """Return whether the commas between cells may be decimal signs: no cell has a point."""
     filled = [[cell for cell in row if cell] for row in rows]
     cells = [cell for row in filled for cell in row]
     if any("." in cell and to_number(cell, ",") is None for cell in cells):

@@ -41,7 +41,7 @@ class ArrayPackage(NamedTuple):
 
 
 def has_diagonals(measure: str, options: Mapping[str, Any]) -> bool:
-    """Say whether the measure with these options can be computed here."""
+    """Return whether the measure with these options can be computed here."""
     if measure in ("soft_dtw", "soft_dtw_divergence"):
         return True
     known = measure == "dtw" and set(options) <= {"metric", "window"}

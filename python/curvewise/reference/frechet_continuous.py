@@ -179,7 +179,7 @@ def _with_edges(P: Array, Q: Array) -> tuple[Array, Array]:
 
 
 def _is_long_enough(P: Array, Q: Array, radius: float, *, strictly: bool = False) -> bool:
-    """Tell whether a path leads through the free space; `strictly`: through its inside."""
+    """Return whether a path leads through the free space; `strictly`: through its inside."""
     if math.isinf(radius):
         return True
     diagram = _Diagram(*_with_edges(P, Q), radius, strictly)

@@ -246,7 +246,7 @@ class Descent:
         return bool(unknown)
 
     def _unknown(self) -> Iterator[Array]:
-        """Yield a point for each direction in which the runs around the best one tell too little.
+        """Yield a point for each direction with poor sampling around the best run.
 
         That in which they are spread least first. Where runs have failed there, on the other side
         or nearer.

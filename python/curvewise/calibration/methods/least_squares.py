@@ -135,6 +135,6 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
                 at_once=self.starts_at_once or ledger.starts_at_once,
             )
         finally:
-            if self.loss != "linear" and runs.values:  # the smallest sum is not wanted
+            if self.loss != "linear" and runs.values:  # the smallest plain sum is not the aim
                 ledger.settle(runs.points[runs.best])
         return finish

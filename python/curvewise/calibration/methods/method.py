@@ -1,8 +1,8 @@
 """The base record of all search methods.
 
 A method is a frozen dataclass of its options, checked when it is made. `identify`, `identify_each`
-and the check of a study know methods by this record alone. Python refuses a class that leaves out
-one of the record's keywords, and an object of a class that leaves out one of its functions.
+and the check of a study use only this record. Python refuses a class without one of the record's
+keywords, and an object of a class without one of its functions.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ class Method(ABC):
         return None
 
     def staged(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
-        """Return the course as a stage of a search: under its name, its curves kept if it asks."""
+        """Return the course as a stage of a search, with its name and settings."""
         ledger.begin_stage(self.name, keeps_curves=self.keeps_curves)
         return self.course(ledger, start, seed)
 
@@ -95,7 +95,7 @@ class Method(ABC):
         start: Mapping[str, float] | None = None,
         max_runs: int | None = None,
     ) -> OpenSearch:
-        """Begin a search that is driven from outside, by ``ask`` and ``tell``.
+        """Begin an ask-and-tell search, driven by the caller.
 
         Parameters
         ----------
@@ -131,7 +131,7 @@ class Method(ABC):
         return self.name
 
     def __repr__(self) -> str:
-        """Return the call that makes it; functions by their names, the same in every process."""
+        """Return the call that creates it, equal in every process."""
         given = [f"{name}={_code(getattr(self, name))}" for name in _changed(self)]
         return f"{type(self).__name__}({', '.join(given)})"
 
@@ -140,7 +140,7 @@ M = TypeVar("M", bound=Method)
 
 
 def with_other_defaults(method: M, **options: Any) -> M:
-    """Return the same method with other options, except for those that somebody has changed."""
+    """Return the method with other options, except for user-defined ones."""
     changed = _changed(method)
     return replace(method, **{n: v for n, v in options.items() if n not in changed})
 
@@ -165,7 +165,7 @@ def _code(value: Any) -> str:
 
 
 def refuse_unknown(method: str, given: Iterable[str], known: Collection[str]) -> None:
-    """Refuse options that a method does not have, and say which was meant."""
+    """Refuse unknown options of a method, with close matches."""
     if unknown := sorted(set(given) - set(known)):
         raise ValueError(
             f"method {method!r} has no option {', '.join(unknown)}; "

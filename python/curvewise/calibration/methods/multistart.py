@@ -37,7 +37,7 @@ def searched(
     most_starts: int,
     at_once: int,
 ) -> Part[Finish]:
-    """Search from a start, or from several places; return what may be said of the end.
+    """Search from one start or from several; return the joint ending.
 
     Parameters
     ----------

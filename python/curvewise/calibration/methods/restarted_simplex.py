@@ -30,7 +30,7 @@ def nelder_mead(
     restarts: int,
     **options: Any,
 ) -> tuple[Array, bool, str]:
-    """Minimise a function and return where its minimum is, whether it converged, and in words.
+    """Minimise a function; return the minimiser, convergence, and message.
 
     Parameters
     ----------

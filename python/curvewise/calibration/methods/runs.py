@@ -106,7 +106,7 @@ class Runs:
         return self._rows[place]
 
     def _slopes_of(self, number: int) -> Array | None:
-        """Return the derivatives of a run's vector where the model knows those of its curves."""
+        """Return the derivatives of a run's vector, if the model has a Jacobian."""
         if self.has_slopes and number not in self._slopes:
             by_curve = self._ledger.slopes(self.points[number])
             run = self._evaluations[number]

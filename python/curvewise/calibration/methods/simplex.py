@@ -34,7 +34,7 @@ class NelderMead(Method, name="nelder-mead", keeps_curves=False, needs_squares=F
 
     It begins at `start`.
 
-    It asks for one run at a time, whatever `workers` says.
+    It requests one run at a time, whatever `workers` is.
 
     Parameters
     ----------

@@ -83,7 +83,7 @@ def fingerprint(function: Any) -> str:
 
 
 def _add(digest: Any, value: Any, above: set[int]) -> None:
-    """Add what a value is made of, but not where in memory it is."""
+    """Add the contents of a value, but not its place in memory."""
     digest.update(type(value).__qualname__.encode())
     if id(value) in above:  # it holds itself
         return
@@ -131,7 +131,7 @@ def _parts(value: Any) -> list[Any]:
 
 
 def _lasting(values: list[Any]) -> list[Any]:
-    """Return data that a model is made of; lists, dicts and counters change as it runs."""
+    """Return the constant data of a model, without lists, dicts and counters."""
     changing = (list, dict, set, bytearray, int, type(None))
     return [value for value in values if not isinstance(value, changing)]
 
@@ -162,7 +162,7 @@ def _called_functions(function: types.FunctionType) -> list[types.FunctionType]:
 
 
 def _names(code: types.CodeType) -> set[str]:
-    """Return the names that bytecode looks up, that of the functions within it included."""
+    """Return the names that bytecode looks up, including inner functions."""
     inner = [_names(part) for part in code.co_consts if isinstance(part, types.CodeType)]
     return set(code.co_names).union(*inner)
 

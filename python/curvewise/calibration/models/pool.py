@@ -237,7 +237,7 @@ class ModelPool:
 
 
 def _stop_signal() -> signal.Signals:
-    """Return what tells a worker to stop: SIGINT, or SIGTERM where SIGINT is ignored."""
+    """Return the signal that stops a worker: SIGINT, or SIGTERM if it is ignored."""
     is_ignored = signal.getsignal(signal.SIGINT) is signal.SIG_IGN
     return signal.SIGTERM if is_ignored else signal.SIGINT
 

@@ -162,7 +162,7 @@ class Cases(ForwardModel):
     def _slopes_of_model(
         self, place: int, parameters: Mapping[str, float], rates: Array
     ) -> tuple[Sequence[Array], list[Array] | None]:
-        """Return a model's curves, if a response asks for them, and their derivatives."""
+        """Return a model's curves, if a response needs them, and derivatives."""
         model, count = self._models[place], 1
         curves: Sequence[Array] = ()
         asking = zip(self.cases, self._places, strict=True)

@@ -1,7 +1,8 @@
 """The criterion of an objective: a measure and the curves' preparation.
 
-The settings of an objective travel together, from `identify`, `rescore` and their like to the terms
-of an objective, and are checked once, when a criterion is made. Cost: none.
+A criterion holds the settings of an objective together, from `identify`, `rescore` and similar
+functions to the terms of an objective. They are checked once, when the criterion is created. Cost:
+negligible.
 """
 
 from __future__ import annotations
@@ -234,7 +235,7 @@ def criterion_of(
 
 
 def criterion_as_code(settings: Mapping[str, Any]) -> str:
-    """Return what makes a criterion of these settings: the measure's name if that is enough."""
+    """Return the argument that creates a criterion of these settings."""
     arguments = _arguments(settings)
     return f"Criterion({', '.join(arguments)})" if len(arguments) > 1 else arguments[0]
 

@@ -33,7 +33,7 @@ _BY_LENGTH = ("curve_length", "pcm")
 # Noise below this fraction of the test's extent, or that lengthens the curve by less than this
 # fraction, changes parameters by at most about 1 %.
 _HARMLESS = 1e-3
-_FEWEST = 9  # points that tell of noise
+_FEWEST = 9  # points required to estimate noise
 _OTHERS = (0, 1, 3, 4)  # of five points in a row, all but the one in the middle
 _DEVIATION_OF_MEDIAN = 0.6745  # of the absolute values of normal noise, in standard deviations
 

@@ -40,7 +40,7 @@ class Score(NamedTuple):
     terms : ndarray, shape (experiments,)
         The value of the measure, or the penalty, for every experiment.
     failures : tuple of str
-        For every failed simulation a line that says why.
+        For every failed simulation a line with the reason.
     """
 
     value: float

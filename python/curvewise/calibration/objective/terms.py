@@ -32,7 +32,7 @@ T = TypeVar("T")
 
 # The value of a failed simulation, in values of one that deviates by the loop's range of y.
 _FAILURE = 1e6
-_DIFFERENCE = 1e-6  # of a place in the unit cube, along slopes that a model knows
+_DIFFERENCE = 1e-6  # of a place in the unit cube, along known derivatives
 
 
 class FailedSimulationError(Exception):
@@ -299,7 +299,7 @@ class CurveTerm(Term):
         return slopes(self._checked(simulation), directions)
 
     def _asked(self, function: Callable[[Array], T], simulation: Any) -> T:
-        """Return what a function of the measure makes of a simulation that can be compared."""
+        """Return the result of a function of the measure for a valid simulation."""
         Q = self._checked(simulation)
         try:
             return function(Q)
@@ -311,7 +311,7 @@ class CurveTerm(Term):
             raise FailedSimulationError("no simulation")
         if isinstance(simulation, BaseException):
             raise FailedSimulationError(f"{type(simulation).__name__}: {simulation}")
-        if np.iscomplexobj(simulation):  # what Python makes of a root of a negative number
+        if np.iscomplexobj(simulation):  # Python's root of a negative number
             raise FailedSimulationError("the simulation is complex")
         Q = as_points(simulation, "Q")
         # Swapped columns would be scored as if they were not.

@@ -57,7 +57,7 @@ class Evaluations(Ledger):
     limit : int or None
         Maximum number of parameter sets to evaluate.
     callback : callable or None
-        Told the progress after every batch; a true result ends the search.
+        Called with the progress after every batch; a true result ends the search.
     bar : object
         A tqdm progress bar.
     earlier_runs : sequence of (ndarray, Evaluation)
@@ -115,7 +115,7 @@ class Evaluations(Ledger):
         return self._best_simulations
 
     def driven(self, course: Course) -> Finish:
-        """Run what a course asks for, to its end."""
+        """Run the points that a course requests, to its end."""
         with closing(course):
             try:
                 units = next(course)
@@ -146,7 +146,7 @@ class Evaluations(Ledger):
         return self.known(units)
 
     def expect(self, units: Array) -> list[Point]:
-        """Begin with what a course will ask for, where something can run it meanwhile."""
+        """Start runs that a course will request, if processes are free."""
         new = super().expect(units)
         self._simulator.begin([self.space.dictionary(point) for point in new])
         return new

@@ -54,7 +54,7 @@ class StoreError(OSError):
 
 
 class Database:
-    """An open store, which is made if its file is not there or empty.
+    """An open store; created if its file does not exist or is empty.
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ def _make_tables(connection: sqlite3.Connection) -> None:
 
 @cache
 def _right_schema() -> list[Row]:
-    """Return what SQLite says of the tables of every store, down to where in the file they are."""
+    """Return SQLite's schema of the tables, which is equal in every store."""
     connection = sqlite3.connect(":memory:")
     _make_tables(connection)
     schema = connection.execute(f"SELECT {_SCHEMA} FROM sqlite_master").fetchall()
@@ -220,7 +220,7 @@ def _right_schema() -> list[Row]:
 
 
 def _has_been_store(path: Path) -> bool:
-    """Tell whether the beginning of a file has what makes a store of it, or is SQLite's."""
+    """Return whether the beginning of a file has what makes a store of it, or is SQLite's."""
     with path.open("rb") as file:
         page = file.read(4096)
     return page.startswith(b"SQLite format 3") or b"CREATE TABLE runs" in page

@@ -1,4 +1,4 @@
-"""One run of the model for one set of parameters, and what the objective made of it."""
+"""One run of the model for one set of parameters, with its objective value."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Point: TypeAlias = tuple[float, ...]
 
 @dataclass(frozen=True)
 class Evaluation:
-    """One run of the model and what the objective made of it."""
+    """One run of the model, and its objective value."""
 
     number: int
     point: Point
@@ -37,7 +37,7 @@ class Evaluation:
 
 
 def is_outside(message: str) -> bool:
-    """Say whether a run has the message of an `OutsideModelError`."""
+    """Return whether a run has the message of an `OutsideModelError`."""
     return message.startswith(_OUTSIDE)
 
 

@@ -146,7 +146,7 @@ class SimulationStore:
             yield StoredRun(parameters_of(parameters), *decoded(*outcome))
 
     def forget_failures(self) -> int:
-        """Delete the runs that failed, say for want of a licence; return how many there were."""
+        """Delete failed runs, e.g. for lack of a licence; return their number."""
         self._write()
         with self._database.transaction():
             return self._database.delete("runs", "message != ''")
@@ -223,7 +223,7 @@ class SimulationStore:
             self._database.write("searches", ended, replace=True)
 
     def searches(self) -> dict[int, SearchRecord]:
-        """Return all searches by their numbers, in the order in which they were begun."""
+        """Return all searches by their numbers, in the order of their beginnings."""
         self._write()
         self._database.check("searches")
         self._database.check("evaluations")

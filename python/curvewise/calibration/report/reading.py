@@ -20,7 +20,7 @@ def records_of(path: str | os.PathLike[str]) -> dict[int, SearchRecord]:
     OSError
         If the file does not exist, or cannot be read.
     """
-    os.stat(path)  # a store that is not there would be made
+    os.stat(path)  # a missing store would be created
     with SimulationStore(path) as store:
         if records := store.searches():
             return records

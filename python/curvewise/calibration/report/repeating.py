@@ -1,4 +1,4 @@
-"""The call that makes a search again, as Python."""
+"""The Python call that repeats a search."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ DECREASE = 1e-4  # a step has to gain this fraction of what the slope promises (
 
 
 def has_curvature(step: Array, change: Array, least: float) -> bool:
-    """Return whether the change of the gradient over a step tells of a function that curves up.
+    """Return whether the gradient's change over a step shows convexity.
 
     Parameters
     ----------

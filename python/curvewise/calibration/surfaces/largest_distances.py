@@ -113,7 +113,7 @@ class _LargestDistances:
         return place
 
     def _step(self, place: Array, coupling: Coupling, reach: float) -> tuple[Array, float]:
-        """Return the step that makes linear distances smallest, and what that promises to gain."""
+        """Return the step that minimises linear distances; predicted reduction."""
         vector, slopes = self._slopes_at(place)
         k, count = place.size, len(self._tests)
         rows, distances = [], []

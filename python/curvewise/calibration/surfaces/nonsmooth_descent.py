@@ -68,7 +68,7 @@ def nonsmooth_descent(
 
 
 class _Counted:
-    """The function, as long as evaluations are left, and the lowest place that it has seen."""
+    """The function with a limit of evaluations, and its lowest place so far."""
 
     def __init__(self, function: ValueAndGradient, most: int) -> None:
         self._function, self.left = function, most

@@ -100,7 +100,7 @@ class SumOfSquares:
 
 
 def linear_minimum(residuals: Array, slopes: Array, low: Array, high: Array) -> Array:
-    """Return the step in a box that makes the sum of squares of linear residuals smallest.
+    """Return the step in a box that minimises squares of linear residuals.
 
     Parameters
     ----------

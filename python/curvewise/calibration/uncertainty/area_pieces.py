@@ -62,7 +62,7 @@ def area_scatter(curves: Iterable[NoisyCurve]) -> Array | None:
     Returns
     -------
     ndarray, shape (k, k), or None
-        None where there are fewer pieces than parameters, so that a median says nothing.
+        Return None if there are fewer sections than parameters: a median is useless then.
     """
     deviations, slopes, angles = zip(*map(_signs, curves), strict=True)
     by_place = np.concatenate(slopes)

@@ -146,7 +146,7 @@ class End:
         self._normal, self._gradient = slopes.T @ slopes, slopes.T @ moved
 
     def next_place(self) -> Array | None:
-        """Return where the model is to be run next, or None where the end has arrived."""
+        """Return the next place to run, or None if the end has converged."""
         if self._runs >= _MOST or self._radius < _NEAREST or not self._normal.any():
             return None  # a model that does not depend on its parameters does not have ends
         at_bound = self._place[self._index] == (self._way > 0.0)
@@ -171,7 +171,7 @@ class End:
             return
         self._radius = min(2.0 * self._radius, _FURTHEST)
         self._stand(place, moved, slopes)
-        # Beyond the distance that is wanted the way back is taken for that of a linear model.
+        # Beyond the target distance, the way back is that of a linear model.
         back = math.sqrt(self._square / distance) if distance > self._square else 1.0
         reached = self._start + back * (place - self._start)
         if self._way * (reached - self.furthest)[self._index] > 0.0:
