@@ -43,7 +43,7 @@ auto computed(const CurveArray& P, const CurveArray& Q, const Options& options, 
                          [&](Control* control) { return compute(p, q, options, control); });
 }
 
-// An array that has taken over what a vector held: copying millions of rows would take long, and
+// An array that takes over the memory of a vector: copying millions of rows would take long, and
 // twice the memory.
 template <class Item, class T>
 py::array_t<Item> owning_array(std::vector<T>&& rows, std::vector<py::ssize_t> shape) {
@@ -132,7 +132,7 @@ py::array_t<double> allocate_residuals(const CurveArray& P, const CurveArray& /*
     return py::array_t<double>({P.shape(0), py::ssize_t{2}});
 }
 
-// An array as allocate(P, Q) returns it, with what fill(P, Q, data, options, control) writes.
+// An array as allocate(P, Q) returns it, filled by fill(P, Q, data, options, control).
 template <class Options, auto allocate, auto fill>
 py::array_t<double> filled(const CurveArray& P, const CurveArray& Q, const py::dict& given) {
     OwnDistances own(P, Q);
@@ -168,7 +168,7 @@ std::optional<DifferentiableMeasure> read_differentiable(const std::string& name
     return found;
 }
 
-// Of a measure by its name, which has a gradient.
+// The gradient of a measure by its name.
 py::tuple gradient_by_name(const std::string& name, const CurveArray& P, const CurveArray& Q,
                            const py::dict& options) {
     const std::optional<DifferentiableMeasure> measure = read_differentiable(name, options);
@@ -222,8 +222,8 @@ class BatchGradient {
     double* data_ = nullptr;
 };
 
-// Of the pairs of two batches of shapes (b, n, d) and (b, m, d): values of shape (b,), and the
-// derivatives by those of both that are wanted.
+// For the pairs of two batches of shapes (b, n, d) and (b, m, d): values of shape (b,), and the
+// requested derivatives by either.
 py::tuple gradients_of_pairs(const std::string& name, const CurveBatch& P, const CurveBatch& Q,
                              const py::dict& options, bool by_p, bool by_q, py::ssize_t workers) {
     const DifferentiableMeasure measure = read_differentiable(name, options).value();
@@ -247,7 +247,7 @@ py::tuple gradients_of_pairs(const std::string& name, const CurveBatch& P, const
     return py::make_tuple(values, of_p.object(), of_q.object());
 }
 
-// An edit distance as a recurrence, with what the work of a call is estimated from.
+// An edit distance as a recurrence, with the data for the estimate of a call's work.
 struct EditSteps {
     EditOptions options;
     Recurrence recurrence;

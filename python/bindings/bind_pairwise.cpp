@@ -69,7 +69,7 @@ void pdist_into(const py::list& X, const py::object& name, const py::dict& optio
                   [&](Control* control) { pdist(curves.views, chosen, data, batch, control); });
 }
 
-// A prepared curve with what the work of a call is estimated from.
+// A prepared curve, with the data for the estimate of a call's work.
 class PreparedCurve {
    public:
     PreparedCurve(const CurveArray& P, const py::object& name, const py::dict& options)

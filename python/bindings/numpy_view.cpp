@@ -25,7 +25,7 @@ CurveView view_of(const py::detail::PyArray_Proxy& array) {
     const auto* const data = reinterpret_cast<const Number*>(array.data);
     const py::ssize_t rows = array.dimensions[0], row_stride = array.strides[0] / item;
     if (array.nd == 1) return {data, rows, 1, row_stride, 0};
-    // A stride of 0 is kept for flat lists; that of a single column is never used.
+    // A stride of 0 marks flat lists; the stride of a single column is never used.
     const py::ssize_t columns = array.dimensions[1];
     return {data, rows, columns, row_stride, columns == 1 ? 1 : array.strides[1] / item};
 }

@@ -12,8 +12,8 @@ namespace curvewise::bindings {
 
 namespace py = pybind11;
 
-// A float64 array of one or two dimensions, aligned; any strides. Nothing else is converted to it,
-// and numpy is not asked.
+// A float64 array of one or two dimensions, aligned; any strides. Other objects are not converted
+// to it, and numpy is not called.
 class CurveArray : public py::object {
    public:
     using py::object::object;
@@ -33,7 +33,7 @@ class CurveArray : public py::object {
 
 CurveView view(const CurveArray& array);
 
-// Of one of a list, which may be of float32 too, and is not converted either.
+// A view of one curve of a list, which may also be of float32, and is not converted either.
 CurveView listed_view(const py::object& array);
 
 // Two curves in the forms that a user passes. The package's as_curves() converts an object that is

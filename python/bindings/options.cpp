@@ -16,7 +16,7 @@ namespace {
 
 std::string repr(const py::object& given) { return py::repr(given).cast<std::string>(); }
 
-// Collects what the options that are choices may be.
+// Collects the choices of the options that have choices.
 class ChoiceCollector {
    public:
     explicit ChoiceCollector(py::dict& choices) noexcept : choices_(choices) {}
@@ -243,7 +243,7 @@ bool are_defaults(const py::tuple& values, const py::tuple& defaults) {
     for (py::ssize_t i = 0; i < PyTuple_GET_SIZE(defaults.ptr()); ++i) {
         PyObject* const value = PyTuple_GET_ITEM(values.ptr(), i);
         PyObject* const standard = PyTuple_GET_ITEM(defaults.ptr(), i);
-        // Of numbers there may be several objects; of what else there is, there is one.
+        // Equal numbers can be different objects; for other values there is only one object.
         same &= value == standard || (PyFloat_CheckExact(value) && PyFloat_CheckExact(standard) &&
                                       PyFloat_AS_DOUBLE(value) == PyFloat_AS_DOUBLE(standard));
     }

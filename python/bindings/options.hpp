@@ -171,7 +171,8 @@ class OptionWriter {
 
     template <class Enum>
     std::enable_if_t<std::is_enum_v<Enum>> operator()(const char* name, Enum value) {
-        // Interned, as what a user writes is: the same object, which needs no look at its letters.
+        // Interned, as strings in a user's code are: the same object, so its letters need no
+        // comparison.
         const char* const choice = choice_names(value)[static_cast<std::size_t>(value)];
         options_[name] = py::reinterpret_steal<py::object>(PyUnicode_InternFromString(choice));
     }

@@ -75,7 +75,7 @@ struct AreaOptions {
     }
     /// The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
     constexpr double work(double n, double m, double /*dim*/) const noexcept {
-        // Of most loops 250 to 300 samples are matched.
+        // For most loops, 250 to 300 samples are matched.
         if (spacing == Spacing::matched) return 20.0 * (n + m) + 1e5;
         if (spacing == Spacing::function) return n + m;
         return n + m + 30.0 * (n > m ? n - m : m - n);

@@ -21,9 +21,10 @@ namespace curvewise {
 enum class Preset {
     scaled,  ///< all on curves scaled by P's box (normalize), area with Spacing::matched,
              ///< curve_length with mean_abs
-    paper,  ///< those of Table 4 of Jekel et al. (2018): area raw with Spacing::x; frechet, and dtw
-            ///< with symmetric2, on scaled curves; pcm and curve_length raw
-    raw     ///< every default, on unscaled curves
+    /// as in Table 4 of Jekel et al. (2018): area raw with Spacing::x; frechet, and dtw with
+    /// symmetric2, on scaled curves; pcm and curve_length raw
+    paper,
+    raw  ///< every default, on unscaled curves
 };
 
 /// The names of the enumerators, in their order.
@@ -48,7 +49,7 @@ struct Comparison {
         const char* measure;
         double value;
     };
-    /// Of all measures except the continuous Fréchet distance, in the order of the list
+    /// The values of all measures except the continuous Fréchet distance, in the order of the list
     /// (measure.hpp), and by name.
     std::vector<Value> values;
     std::optional<double> area;

@@ -41,7 +41,7 @@ class CurveView {
               std::ptrdiff_t col_stride) noexcept
         : data_(data), n_(n), dim_(dim), row_stride_(row_stride), col_stride_(col_stride) {}
 
-    /// Of floats; strides count these.
+    /// A view of floats; strides count floats.
     CurveView(const float* data, std::ptrdiff_t n, std::ptrdiff_t dim, std::ptrdiff_t row_stride,
               std::ptrdiff_t col_stride) noexcept
         : floats_(data), n_(n), dim_(dim), row_stride_(row_stride), col_stride_(col_stride) {}

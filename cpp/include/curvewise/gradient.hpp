@@ -69,7 +69,7 @@ CURVEWISE_EXPORT double value_and_gradients(const CurveLengthOptions& options, c
                                             const CurveView& Q, const Gradients& out,
                                             Control* control = nullptr);
 
-/// Of soft_dtw(): everywhere. Twice the time of the value, or three times.
+/// Derivatives of soft_dtw(), which exist everywhere. Two or three times the time of the value.
 CURVEWISE_EXPORT double value_and_gradients(const SoftDtwOptions& options, const CurveView& P,
                                             const CurveView& Q, const Gradients& out,
                                             Control* control = nullptr);
@@ -81,7 +81,7 @@ double value_and_gradient(const Options& options, const CurveView& P, const Curv
     return value_and_gradients(options, P, Q, {nullptr, gradient}, control);
 }
 
-/// Of sum_of_squares(): 2 (Q - P), everywhere.
+/// Derivatives of sum_of_squares(): 2 (Q - P), everywhere.
 CURVEWISE_EXPORT double sum_of_squares_and_gradient(const CurveView& P, const CurveView& Q,
                                                     double* gradient, Control* control = nullptr);
 

@@ -39,19 +39,19 @@ struct RealNumberRange {
 /// Of threads.
 inline constexpr WholeNumberRange workers_range{
     -1, "give a whole number >= 1, or -1 for all cores"};  // 0 is refused, too
-/// Of the half-width of a band.
+/// Range of the half-width of a band.
 inline constexpr WholeNumberRange window_range{
     0, "give a whole number >= 0, a fraction between 0 and 1, or None"};
 /// Range of the numbers of points to omit at each end.
 inline constexpr WholeNumberRange relax_range{0, "give four whole numbers >= 0, or None"};
-/// Of the offsets of pcm.
+/// Range of the number of offsets of pcm.
 inline constexpr WholeNumberRange offsets_range{1, "give a whole number >= 1, or 'continuous'"};
-/// Of a distance from which on it does not matter.
+/// Range of a cutoff.
 inline constexpr RealNumberRange cutoff_range{0.0, "give a number >= 0, or None"};
 /// Range of a cutoff for distances that may be negative.
 inline constexpr RealNumberRange any_cutoff_range{-std::numeric_limits<double>::infinity(),
                                                   "give a number, or None"};
-/// Of the smoothness of soft_dtw.
+/// Range of the smoothness of soft_dtw.
 inline constexpr RealNumberRange gamma_range{0.0, "give a finite number > 0"};  // 0 is refused, too
 
 /// Range of the cost added to each step of a warping path that leaves the diagonal.

@@ -77,7 +77,7 @@ class Prepared {
 
     /// The measure of P and Q. Throws as the measure does.
     CURVEWISE_EXPORT double operator()(const CurveView& Q, Control* control = nullptr) const;
-    /// Of P and each of Qs, in out[j], as cdist would.
+    /// Writes the measure of P and each of Qs to out[j], as cdist would.
     CURVEWISE_EXPORT void operator()(const std::vector<CurveView>& Qs, double* out,
                                      const BatchOptions& options = {},
                                      Control* control = nullptr) const;

@@ -106,7 +106,7 @@ struct Recurrence {
     std::vector<Step> steps;  ///< of equal ones the first is taken
     GroundDistance ground;
     PairCost pair = PairCost::distance;
-    /// of `apart` and `together`; empty: a quarter of the larger deviation
+    /// Of `apart` and `together`; for `apart`, infinity selects a quarter of the larger deviation.
     double threshold = 0.0;
     double steepness = 0.0;
     Gaps gaps = Gaps::none;

@@ -212,7 +212,7 @@ class BothEnds {
         });
     }
 
-    // Whether a walk has met what the other one has marked of its row.
+    // Whether a walk has met the marked runs of the other walk in its row.
     bool meets_mark(const EndWalk<Dim>& walk, const EndWalk<Dim>& other,
                     const Radius& radius) const {
         const std::ptrdiff_t row = last_ - walk.row();

@@ -81,7 +81,7 @@ class CouplingWalk {
         }
     }
 
-    // Of the free columns from j on.
+    // The last of the free columns from j on.
     std::ptrdiff_t last_free(std::ptrdiff_t i, std::ptrdiff_t j, const Radius& radius) const {
         return edges_.first_blocked_vertex(j + 1, last_column_, i, radius) - 1;
     }

@@ -40,7 +40,7 @@ struct FoundPoint {
 template <int Dim>
 class FarthestPointSearch {
    public:
-    // `largest` is that of the |coordinates| of both curves.
+    // `largest` is the largest |coordinate| of both curves.
     FarthestPointSearch(const BoxedCurve& from, const BoxedCurve& to, double largest,
                         Poller& poller)
         : from_(from),

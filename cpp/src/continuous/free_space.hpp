@@ -27,7 +27,7 @@ namespace curvewise::continuous {
 // closed: whether it is at most the radius.
 enum class FreeSet { closed, open };
 
-// A radius with what the filters need of it, in units of the scaled curves.
+// A radius and the bounds that the filters need, in units of the scaled curves.
 class Radius {
    public:
     Radius(double given, const RangeScale& range, std::ptrdiff_t dim, FreeSet set) noexcept
@@ -52,10 +52,10 @@ class Radius {
     double square() const noexcept { return square_; }
     double slack() const noexcept { return slack_; }
     double tiny() const noexcept { return tiny_; }
-    // Of the rounded square of a distance.
+    // Takes the rounded square of a distance.
     bool surely_holds(double square) const noexcept { return square <= holds_below_; }
     bool surely_misses(double square) const noexcept { return square > misses_above_; }
-    // Of the exact sign of a distance minus the radius.
+    // Takes the exact sign of a distance minus the radius.
     bool holds(int sign) const noexcept { return set_ == FreeSet::closed ? sign <= 0 : sign < 0; }
 
    private:
@@ -63,9 +63,9 @@ class Radius {
     FreeSet set_;
 };
 
-// An end of an interval on an edge: where the edge enters, or leaves, the reach of vertex `index`
-// of the other curve, or its own end. Where that is along the edge is computed when it is first
-// asked for: 0 is the first vertex and 1 the second.
+// An end of an interval on an edge: the point where the edge enters, or leaves, the reach of vertex
+// `index` of the other curve, or the edge's own end. Its place along the edge is computed on first
+// use: 0 is the first vertex and 1 the second.
 struct Bound {
     static constexpr std::ptrdiff_t own_end = -1;
     static constexpr double unknown = -1.0;
@@ -246,7 +246,7 @@ class EdgeFamily {
         bound.error = roots.error;
     }
 
-    // Whether the lower end of one reach comes behind that of another.
+    // Whether the lower end of one reach is behind the lower end of another.
     bool is_later(std::ptrdiff_t edge, const Bound& one, const Bound& other) const {
         const double difference = one.t - other.t;
         const double error = one.error + other.error;

@@ -23,7 +23,7 @@ class CurveSummary {
    public:
     CurveSummary(const curves::CheckedCurve& checked, const BoxedCurve& boxed);
 
-    // Of the summaries of two curves with `dim` coordinates.
+    // A lower bound from the summaries of two curves with `dim` coordinates.
     double bound(const CurveSummary& other, std::ptrdiff_t dim) const noexcept;
     double largest() const noexcept { return largest_; }
 

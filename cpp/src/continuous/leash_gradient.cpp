@@ -122,7 +122,8 @@ class Leash {
         if (next < 0 || next >= curve.size()) return true;
         return sign * cosine_to(curve, place.vertex, next) >= -level;
     }
-    // Of the direction and an edge; 0 for an edge without length.
+    // The cosine of the angle between the pair's direction and an edge; 0 for an edge of length
+    // zero.
     double cosine_to(const CurveView& curve, std::ptrdiff_t from,
                      std::ptrdiff_t to) const noexcept {
         double largest = 0.0, dot = 0.0, squares = 0.0;
@@ -271,7 +272,7 @@ double value_and_gradients(const FrechetContinuousOptions& options, const CurveV
     if (out.by_p != nullptr) std::fill_n(out.by_p, P.size() * P.dim(), 0.0);
     if (out.by_q != nullptr) std::fill_n(out.by_q, Q.size() * Q.dim(), 0.0);
     if (value == 0.0) return value;
-    if (std::isinf(value)) {  // the derivative is that of smaller curves
+    if (std::isinf(value)) {  // the derivative equals that of smaller curves
         const std::vector<double> p = shrunk(P), q = shrunk(Q);
         value_and_gradients(options, CurveView(p.data(), P.size(), P.dim()),
                             CurveView(q.data(), Q.size(), Q.dim()), out, control);

@@ -78,7 +78,7 @@ class LeashMeasure {
             return edges.point_is_free(edge, t, k, radius_);
         });
     }
-    // Of a row that the radius does not hold.
+    // The distance of a row, if it exceeds the radius.
     double leash(const std::array<double, 2>& row) const {
         return with_place(row, [&](const auto& edges, auto edge, double t, auto k) {
             return edges.distance_at(edge, t, k, radius_.given());

@@ -18,8 +18,8 @@
 
 namespace curvewise::continuous {
 
-// Of a row: edges first to last, each reached from its first vertex on, the first one from `low`
-// on. The vertex behind the last is not free, unless it is the last of the curve.
+// A run of a row: edges first to last. Each is reached from its first vertex on, the first one from
+// `low` on. The vertex behind the last is not free, unless it is the last of the curve.
 struct Run {
     std::ptrdiff_t first;
     std::ptrdiff_t last;
@@ -30,7 +30,7 @@ using Runs = std::vector<Run>;
 template <int Dim>
 class Diagram {
    public:
-    // Row i against the edges of the second curve, column j against those of the first.
+    // Row i is compared with the edges of the second curve, column j with the edges of the first.
     Diagram(const EdgeFamily<Dim>& first, const EdgeFamily<Dim>& second)
         : columns_(first), rows_(second) {}
 

@@ -6,8 +6,8 @@
 
 namespace curvewise::curves {
 
-// Of places that lie at fixed shares of a curve's length: they move along it when it gets longer
-// or shorter before them, or behind.
+// The gradient of places at fixed shares of a curve's length: they move along it if it gets longer
+// or shorter before or behind them.
 class ArcGradient {
    public:
     explicit ArcGradient(const std::vector<double>& arc_lengths)

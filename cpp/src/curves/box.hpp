@@ -17,7 +17,7 @@ class BoxSide {
 
     bool has_extent() const noexcept { return has_extent_; }
     double scaled(double x) const noexcept { return (range_.shrink(x) - low_) / extent_; }
-    // scaled(b) - scaled(a), without what rounding takes from them far from the box.
+    // scaled(b) - scaled(a), without its rounding error far from the box.
     double scaled_difference(double a, double b) const noexcept {
         const double difference = b - a;
         // First the difference, then the range, in which both may be infinite; the other way round

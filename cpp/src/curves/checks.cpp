@@ -101,7 +101,7 @@ class Magnitude {
     double largest_ = 0.0;
 };
 
-// Of values side by side.
+// The magnitude of contiguous values.
 Magnitude magnitude(const double* values, std::ptrdiff_t count) noexcept {
     Magnitude even, odd;  // which do not wait for each other
     for (std::ptrdiff_t i = 1; i < count; i += 2) {

@@ -44,7 +44,7 @@ class CurveList {
     bool is_list_ = false;
 };
 
-// A curve of doubles found finite, and on the sphere where that is asked for, with the largest
+// A curve of doubles that was checked to be finite, and on the sphere if required, with the largest
 // |coordinate|. Refers to the caller's points.
 struct CheckedCurve {
     CheckedCurve(const CurveView& view, std::string view_name, runtime::Poller& poller);

@@ -10,7 +10,7 @@ namespace curvewise::curves {
 class RangeScale {
    public:
     explicit RangeScale(double largest_magnitude) noexcept;
-    // To where `magnitude`, if not 0, comes to lie between 1/2 and 1, whatever it is.
+    // The scale that brings any `magnitude`, if not 0, between 1/2 and 1.
     static RangeScale to_unity(double magnitude) noexcept;
     // This scale, limited so that a constant among results of that degree is not enlarged beyond
     // 2^1000. Curves that are very small compared with a constant then keep fewer bits, and sums

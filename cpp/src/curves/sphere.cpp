@@ -62,7 +62,8 @@ std::array<double, sphere_dim> on_sphere(double longitude, double latitude) noex
     return {half * along.cosine, half * along.sine, 0.5 * up.sine};
 }
 
-// Of h = sin^2(dlat / 2) + cos(lat_p) cos(lat_q) sin^2(dlon / 2), whose arc is 2 asin(sqrt(h)).
+// The derivative of h = sin^2(dlat / 2) + cos(lat_p) cos(lat_q) sin^2(dlon / 2), whose arc is 2
+// asin(sqrt(h)).
 SlopeOnSphere slope_on_sphere(const double* p, const double* q) noexcept {
     constexpr double per_degree = 0.017453292519943295;
     const SineAndCosine lat_p = of_degrees(p[1]), lat_q = of_degrees(q[1]);

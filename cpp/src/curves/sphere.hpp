@@ -19,7 +19,7 @@ namespace curvewise::curves {
 
 inline constexpr std::ptrdiff_t sphere_dim = 3;
 
-// Of degrees within check_on_sphere().
+// The point for degrees within check_on_sphere().
 std::array<double, sphere_dim> on_sphere(double longitude, double latitude) noexcept;
 
 // By longitude and latitude, in degrees, of the point of Q: the derivative of the arc of the unit

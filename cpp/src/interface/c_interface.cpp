@@ -204,7 +204,7 @@ int measured(int measure, const curvewise_curve* P, const curvewise_curve* Q, co
     });
 }
 
-// The stresses of a point of material, and their slopes where these are asked for.
+// The stresses of a material point, and their derivatives if requested.
 template <class Given>
 int driven(const Given* material, const double* parameters, ptrdiff_t count, const double* strain,
            ptrdiff_t n, double* stress, double* slopes, curvewise_error* error) noexcept {

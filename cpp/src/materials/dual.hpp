@@ -93,7 +93,7 @@ template <std::size_t N>
 Dual<N> log(const Dual<N>& x) noexcept {
     return x.mapped(std::log(x.value), 1.0 / x.value);
 }
-// x^y for x >= 0; where x is 0, its own share of the derivative is that of y >= 1.
+// x^y for x >= 0. If x is 0, the part of the derivative by x is right for y >= 1.
 template <std::size_t N>
 Dual<N> pow(const Dual<N>& x, const Dual<N>& y) noexcept {
     const double f = std::pow(x.value, y.value);

@@ -45,7 +45,7 @@ struct FlowKind {
 template <class Number>
 class FlowSeries {
    public:
-    // Of the time over `length`.
+    // The series in the time over `length`.
     void begin(const FlowStart<Number>& start, const FlowKind& kind, double length) {
         start_ = start, kind_ = kind, length_ = length, order_ = 0;
         u_[0] = start[START];

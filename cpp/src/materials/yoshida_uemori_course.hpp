@@ -1,5 +1,5 @@
-// The parameters of the Yoshida-Uemori point by name, what its flow in one direction is in closed
-// form, and how far that flow has come (yoshida_uemori_flow.hpp has the equations).
+// The parameters of the Yoshida-Uemori point by name, the closed forms of its flow in one
+// direction, and the progress of that flow (yoshida_uemori_flow.hpp has the equations).
 #pragma once
 
 #include <cmath>
@@ -137,7 +137,7 @@ struct Course {
     static Number height(const Number& u, const Bound& at) {
         return at.size * u * (value_of(u) < 0.0 ? -u : u) + at.centre;
     }
-    // The strain by what the stress has risen by: of a constant modulus.
+    // The strain for the rise of the stress, with a constant modulus.
     Number strain(const Number& u, const Number& p, const Bound& at) const {
         return p + (height(u, at) - begin) / k.modulus.initial;
     }
@@ -157,8 +157,9 @@ struct Course {
     Number target, begin;
 };
 
-// The share in (0, high] at which what rises is 0, nearly: Newton's next iterate is it to rounding.
-// `never` where it is below 0 at the end. excess(share) is its value and its slope.
+// The share in (0, high] at which a rising quantity is 0, nearly: Newton's next iterate is exact to
+// rounding. `never` if the quantity is below 0 at the end. excess(share) gives its value and its
+// derivative.
 template <class Excess>
 double root_of(Excess excess, double guess, double high) {
     double low = 0.0, at = std::min(guess, high);

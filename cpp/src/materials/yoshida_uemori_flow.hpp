@@ -142,7 +142,7 @@ class Follower {
         shorten(Leg::at_target, &State::strain, c.target, guess);
         return leg;
     }
-    // Moves both courses along a leg. The series is that of the leg, or one with slopes to be made.
+    // Moves both courses along a leg. The series is that of the leg, or a new one with derivatives.
     template <class SeriesNumber>
     void go(const Leg& leg, FlowSeries<SeriesNumber>& series) {
         Course<Number>& c = course_;
@@ -203,7 +203,7 @@ class Follower {
     Course<Number>& course_;
     Course<double>& plain_;
     Series& series_;
-    double compliance_ = 0.0;  // that of the leg's begin, times the size
+    double compliance_ = 0.0;  // compliance at the leg's start, times the size
 };
 
 }  // namespace curvewise::materials

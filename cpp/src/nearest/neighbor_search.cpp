@@ -12,7 +12,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // What a bound takes, for the poller: some microseconds.
 constexpr std::int64_t bound_effort = 1 << 11;
 
-// A search counts whole pairs, and whatever computes a distance must not count them again.
+// A search counts whole pairs, so the computation of a distance must not count them again.
 class OwnCount {
    public:
     explicit OwnCount(Poller& poller) noexcept

@@ -99,7 +99,7 @@ Sizes sizes_of(const CheckedCurves& list) {
     return sizes;
 }
 
-// Of each size one.
+// Each size once.
 Sizes distinct(const CheckedCurves& curves) {
     Sizes sizes = sizes_of(curves);
     std::sort(sizes.begin(), sizes.end());
@@ -122,7 +122,7 @@ void check_columns(const BatchMeasure& measure, const BatchMeasure::Rows& rows,
     }
 }
 
-// Prepares every curve, block by block, and throws what that throws.
+// Prepares every curve, block by block, and throws the errors of the preparation.
 void check_prepared(const BatchMeasure& measure, const CheckedCurves& P,
                     const std::vector<Block>& rows_of, const CheckedCurves& Q,
                     const std::vector<Block>& columns_of, Poller& poller) {

@@ -1,5 +1,5 @@
-// A measure of many curves, whatever its class: what cdist, pdist and Prepared go through. Every
-// curve is checked and prepared once; pair_run.hpp computes the pairs.
+// A measure of many curves, for any measure class: the interface for cdist, pdist and Prepared.
+// Every curve is checked and prepared once; pair_run.hpp computes the pairs.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +39,7 @@ class BatchMeasure {
     BatchMeasure& operator=(BatchMeasure&&) = delete;
     virtual ~BatchMeasure() = default;
 
-    // Of the one curve of `rows`, and Q.
+    // The value of the one curve of `rows`, and Q.
     virtual double value(const Rows& rows, const CheckedCurve& Q, Poller& poller) const = 0;
 
     virtual curves::Requirements requirements() const noexcept = 0;
@@ -66,7 +66,7 @@ struct BatchOutput {
     Control* control;
 };
 
-// Throws what the functions below would throw before their work.
+// Throws the errors that the functions below would throw before their work.
 void check_batch(const BatchMeasure& measure, const CurveList& XA, const CurveList& XB,
                  Control* control);
 void check_batch(const BatchMeasure& measure, const CurveList& X, Control* control);

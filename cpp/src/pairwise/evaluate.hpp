@@ -8,7 +8,7 @@
 
 namespace curvewise::pairwise {
 
-// Returns what use(prepared_p, prepared_q, call) returns.
+// Returns the result of use(prepared_p, prepared_q, call).
 template <class M, class Use>
 auto with_pair(const M& measure, const CurveView& P, const CurveView& Q, Control* control,
                Use use) {

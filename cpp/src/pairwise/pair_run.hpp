@@ -68,7 +68,7 @@ struct PairCall {
     ThreadMemory& memory;
 };
 
-// The pairs of prepared rows and columns, whatever the measure.
+// The pairs of prepared rows and columns, for any measure.
 class PairValues {
    public:
     PairValues() = default;

@@ -29,7 +29,7 @@ using curves::RangeScale;
 using planar::Measured;
 using planar::Quad;
 
-// Of FacingCurves or of MatchedCurves.
+// For FacingCurves or MatchedCurves.
 template <class Curves>
 Quad quad_at(const Curves& curves, std::size_t i) noexcept {
     return {curves.A[i], curves.A[i + 1], curves.B[i + 1], curves.B[i]};
@@ -94,7 +94,7 @@ std::vector<Point> unmatched(const Polyline& by_vertex, const planar::PlacesOnCu
     return gradient;
 }
 
-// Adds what the slopes of the scaling hand on to the points that span the box: 1 over its extent.
+// Adds the derivatives by the scaling to the points that span the box: 1 over its extent.
 void add_box_gradient(const Polyline& points, double slope, double by_slope,
                       double Point::*coordinate, std::vector<Point>& gradient) {
     const auto [low, high] = std::minmax_element(
@@ -265,7 +265,7 @@ class AreaMeasure : public pairwise::LinearMeasure {
     struct ByVertex {
         ByVertex(std::size_t size, bool of_a, bool of_b)
             : A(of_a ? size : 0, Point{0.0, 0.0}), B(of_b ? size : 0, Point{0.0, 0.0}) {}
-        // Of quadrilateral i, whose corners are A[i], A[i + 1], B[i + 1], B[i].
+        // Adds quadrilateral i, whose corners are A[i], A[i + 1], B[i + 1], B[i].
         void add(std::size_t i, const planar::CornerGradient& by_corner, double weight) noexcept {
             if (!A.empty()) {
                 add_to(A[i], by_corner[0], weight);

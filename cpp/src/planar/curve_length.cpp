@@ -24,9 +24,9 @@ namespace {
 using curves::RangeScale;
 using runtime::Poller;
 
-using Pair = std::array<double, 2>;  // what belongs to x and to y
+using Pair = std::array<double, 2>;  // one number for x and one for y
 
-// Not std::max, which takes references: gcc then keeps what grows in memory.
+// Not std::max, which takes references: gcc would then keep the running maximum in memory.
 double larger(double a, double b) noexcept { return a < b ? b : a; }
 
 // The largest |x| and |y|.
@@ -283,7 +283,7 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
         });
     }
 
-    // The value, and those of its derivatives that are asked for.
+    // The value, and the requested derivatives.
     double with_gradients(const PreparedP& P, const PreparedQ& Q, const Gradients& out,
                           const pairwise::Call<Memory>& call) const {
         const double value = (*this)(P, Q, call);

@@ -1,5 +1,5 @@
 // Two curves as functions of x, piecewise linear, and the strips between them over the x that both
-// span: what Spacing::function measures.
+// span: the basis of Spacing::function.
 #pragma once
 
 #include <algorithm>

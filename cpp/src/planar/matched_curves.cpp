@@ -63,13 +63,13 @@ struct Matching {
     }
 };
 
-// Of a position along a curve, which is far from the largest whole number.
+// For a position along a curve, which is far from the largest whole number.
 bool is_at_sample(double position) noexcept {
     return position == static_cast<double>(static_cast<std::int64_t>(position));
 }
 
 // The vertices of a curve that lie between its samples, and their places along the path. `side` is
-// that of the cells: 0 for P, 1 for Q.
+// the side of the cells: 0 for P, 1 for Q.
 struct VertexPlaces {
     VertexPlaces(const Side& curve, const Cells& cells, std::size_t side, Poller& poller) {
         std::size_t step = 0;

@@ -39,7 +39,7 @@ struct MatchedCurves {
     std::vector<std::size_t> ends;
 };
 
-// Where the vertices of MatchedCurves::A lie on P, or those of B on Q, for derivatives.
+// The places of the vertices of MatchedCurves::A on P, or of those of B on Q, for derivatives.
 struct PlacesOnCurve {
     struct Place {
         bool is_vertex;  // of the curve itself, that at the beginning of the segment

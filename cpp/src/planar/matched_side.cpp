@@ -163,7 +163,8 @@ AlignedBuffer CommonBox::scaled(const CurveView& curve, Poller& poller) const {
                 to[2 * i + 1] = y.scaled(coordinate(i, 1));
                 all |= bits(to[2 * i]) | bits(to[2 * i + 1]);
             }
-            // The bits of a number rise with it, and those of all are not below any's.
+            // The bit pattern of a number rises with the number, and the OR of all bit patterns is
+            // not below any of them.
             if ((all & ~bits(-0.0)) <= bits(far)) return;
             for (double* value = to + 2 * first; value != to + 2 * end; ++value) {
                 *value = std::clamp(*value, -far, far);

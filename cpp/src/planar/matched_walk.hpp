@@ -1,11 +1,11 @@
-// The walk along two curves that a path matches (matched_curves.hpp): from place to place. A place
-// is i + j in cell (i, j) of the path, and between two cells by proportion.
+// The walk along two curves that a path matches (matched_curves.hpp), from place to place. A place
+// is i + j in cell (i, j) of the path, and by proportion between two cells.
 //
 // Three sequences are merged: the cells and the ends of pieces, the vertices of one curve, and
-// those of the other. Which is next cannot be foretold, so nothing branches on it; nor on whether a
-// curve has come to a vertex at the vertex's own place, which rounding decides. What the walk reads
-// of the steps and the vertices ahead is laid out for it, some at a time. Time O(n + m + k), memory
-// O(1).
+// those of the other. Their order cannot be predicted, so no branch depends on it. Rounding decides
+// whether a curve has come to a vertex at the vertex's own place, so no branch depends on that
+// either. The steps and vertices ahead are prepared for the walk, some at a time. Time O(n + m +
+// k), memory O(1).
 #pragma once
 
 #include <algorithm>

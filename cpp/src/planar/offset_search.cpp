@@ -23,11 +23,12 @@ namespace {
 using curves::ArcPosition;
 using curves::Point;
 
-// Of S; and of the value, where that is so far above S that the last bits of its sum are more.
+// Relative to S; or to the value, if that is so far above S that the last bits of its sum are
+// larger.
 constexpr double finest_tolerance = 1e-12;
 constexpr double of_the_value = 0.1;
 
-// The corners that one lower bound may look at, in those of both curves.
+// The maximum number of corners for one lower bound, relative to the corners of both curves.
 constexpr std::size_t most_corners = 16;
 
 double dot(const Point& a, const Point& b) noexcept { return a.x * b.x + a.y * b.y; }
@@ -99,7 +100,7 @@ class AreaAtOffset {
         return sums;
     }
 
-    // Of f over centre - half .. centre + half.
+    // A lower bound of f over centre - half .. centre + half.
     double lower_bound(double centre, double half) {
         ArcPosition position = start(centre);
         double value = 0.0;
@@ -260,7 +261,7 @@ class GridSearch {
     GridSearch(const AreaAtOffset& f, double S, double slack, std::ptrdiff_t count)
         : f_(f), S_(S), slack_(slack), count_(count) {}
 
-    // `doubt`: what rounding may have made of an area, in areas.
+    // `doubt`: the largest possible rounding error of an area.
     Offset best(double doubt) {
         std::vector<Stretch> open = first_stretches();
         while (!open.empty()) {
@@ -282,8 +283,8 @@ class GridSearch {
     }
 
    private:
-    // Between two offsets of the grid, with the areas there: those of the whole grid might not fit
-    // into memory.
+    // An interval between two offsets of the grid, with the areas there. The areas of the whole
+    // grid might not fit into memory.
     struct Stretch {
         std::ptrdiff_t first;
         std::ptrdiff_t last;

@@ -36,7 +36,7 @@ struct Triangle {
     double twice_area;
 };
 
-// Of Quad::split_area, (abc cdb + abd cda) / 2 (abc + abd) in absolute values.
+// The gradient of Quad::split_area, (abc cdb + abd cda) / 2 (abc + abd) in absolute values.
 CornerGradient split_gradient(const Quad& quad) noexcept {
     const std::array<Point, 4> corners{quad.a, quad.b, quad.c, quad.d};
     const Triangle abc(corners, {0, 1, 2}), abd(corners, {0, 1, 3});

@@ -118,7 +118,7 @@ class RelativeWalk {
         u_.back() = 1.0;
     }
     bool at_end() const noexcept { return vertex_ + 1 == curve_.size(); }
-    // Of the next vertex; beyond the last one, further than any.
+    // The place of the next vertex; beyond the last one, a place further than any.
     double next() const noexcept { return at_end() ? 2.0 : u_[vertex_ + 1]; }
     // The point at u, at most next(); passes the vertex there.
     curves::Point advance(double u) noexcept {

@@ -37,7 +37,7 @@ void add_edges(const Polyline& points, std::vector<Edge>& edges) {
 }
 
 // The slabs between neighbouring x of points, one after the other. The even-odd rule for the edges
-// of both curves together is that of the symmetric difference.
+// of both curves together gives the symmetric difference.
 class Slabs {
    public:
     Slabs(std::vector<Edge> edges, Poller& poller) : edges_(std::move(edges)), poller_(poller) {

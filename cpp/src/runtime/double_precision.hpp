@@ -1,6 +1,6 @@
-// A compiler whose doubles are not doubles is refused. On 32-bit x86 without SSE2, values are kept
-// with 64 bits and rounded twice: the same bits as elsewhere are out of reach. Nothing is included
-// here, so that a compiler can be asked without the headers of its target.
+// Rejects a compiler whose doubles are not IEEE doubles. On 32-bit x86 without SSE2, values are
+// kept with 64 bits and rounded twice, so bitwise identical results are impossible. Nothing is
+// included here, so that a compiler can be tested without the headers of its target.
 #pragma once
 
 #if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ == 2 || __FLT_EVAL_METHOD__ < 0)

@@ -56,8 +56,8 @@ void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work) {
             threads.emplace_back(run, w);
         }
     } catch (const std::exception&) {
-        // The system gives no more threads (std::system_error), or no memory for what one begins
-        // with (std::bad_alloc); those there are, and this one, do the work.
+        // The system refuses another thread (std::system_error), or the memory to start one
+        // (std::bad_alloc). The running threads, and this one, do the work.
         const std::lock_guard<std::mutex> lock(mutex);
         --at_work;
     }

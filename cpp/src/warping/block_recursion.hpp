@@ -60,7 +60,7 @@ class BlockRecursion {
           poller_(poller),
           steps_(steps) {}
 
-    // `corner`: what leads into the first cell.
+    // `corner`: the value that leads into the first cell.
     void run(typename Front::Value corner) {
         visit({P_.levels() - 1, 0}, {Q_.levels() - 1, 0}, corner);
         poller_.count_steps(steps_ - counted_steps_, 0);

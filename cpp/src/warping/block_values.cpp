@@ -72,8 +72,8 @@ void ValueFront::block(const RunRange& p, const RunRange& q) noexcept {
     q_.fill(q, infinity);
 }
 
-// The smallest value that leads into a cell: from the other side all of it, from its own what
-// comes before.
+// The smallest value that leads into a cell: from the other side all values, from its own side the
+// earlier ones.
 void ValueFront::pass(const RunRange& p, const RunRange& q, double corner) noexcept {
     const double into_p = std::min(corner, q_.lowest(q));
     const double into_q = std::min(corner, p_.lowest(p));

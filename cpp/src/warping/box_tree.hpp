@@ -110,8 +110,8 @@ struct Nearest {
     std::ptrdiff_t point;
 };
 
-// The point of a curve that is nearest to a point of another. The search starts where it is told
-// to and climbs from there, so that it is short where that is near.
+// The point of a curve that is nearest to a point of another. The search starts at a given point
+// and climbs from there, so it is short if that point is near.
 template <class Norm>
 class NearestSearch {
    public:

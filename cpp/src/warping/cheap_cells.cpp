@@ -95,7 +95,7 @@ std::optional<Path> find_path_of_cheap_cells(const SweepProblem& problem, bool o
         problem.open_begin || !with_norm(problem.cost.metric, [](auto) { return true; })) {
         return std::nullopt;
     }
-    // Summed in the table's order: what rounds here rounds there, too.
+    // Summed in the table's order, so that both have the same rounding errors.
     const double most = cost_of_some_path(problem);
     if (!open_end && has_narrow_path(problem) && most < std::numeric_limits<double>::infinity()) {
         return find_narrow_path(problem, most);

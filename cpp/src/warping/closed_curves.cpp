@@ -90,7 +90,7 @@ class LeastSumSearch {
         if (best_.walk.first.empty() || value < best_.value) best_ = {value, search_.walk()};
         return search_.walk();
     }
-    // Of all starts after `first` and before `end`, whose walks are given.
+    // All starts after `first` and before `end`, whose walks are given.
     void between(std::ptrdiff_t first, std::ptrdiff_t end, const Walk& low, const Walk& high) {
         if (end - first < 2) return;
         const std::ptrdiff_t middle = first + (end - first) / 2;

@@ -27,7 +27,7 @@ class LeastMaximumSearch {
 
     // The value, or infinity where it is above `most`.
     double run(double most);
-    // Of a value, a start whose walk has it.
+    // A start whose walk has the given value.
     std::ptrdiff_t start(double value) {
         admits(value);
         return start_;

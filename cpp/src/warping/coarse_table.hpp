@@ -20,7 +20,7 @@ namespace curvewise::warping {
 
 class CoarseTable {
    public:
-    // Of at most some `most_boxes` pairs of boxes. The trees must outlive it.
+    // A table of at most about `most_boxes` pairs of boxes. The trees must outlive it.
     CoarseTable(const BoxTree& P, const BoxTree& Q, Metric metric, std::ptrdiff_t most_boxes);
 
     double lower() const noexcept { return lower_; }
@@ -31,7 +31,7 @@ class CoarseTable {
     double undecided_share(double lower, double upper) const;
 
    private:
-    // Of a tree whose boxes of one level are the rows, or the columns.
+    // A tree; its boxes of one level are the rows, or the columns.
     struct Side {
         const BoxTree& tree;
         std::ptrdiff_t level;

@@ -1,5 +1,5 @@
-// Lower bounds of what the rows, and the columns, of a table cost that a path has still to visit:
-// sums from the end, of a least cost for each. O(n + m).
+// Lower bounds of the cost of the rows, and of the columns, that a path has still to visit: sums
+// from the end of the least cost of each. O(n + m).
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace curvewise::warping {
 
 class CostSums {
    public:
-    // All 0. `they_add`: whether a path pays for its rows and its columns (symmetric2 counts a
-    // diagonal step twice), or for the dearer of the two.
+    // Sets all to 0. `they_add`: whether a path pays for its rows and its columns (symmetric2
+    // counts a diagonal step twice), or for the more expensive of the two.
     void assign(std::ptrdiff_t rows, std::ptrdiff_t columns, bool they_add) {
         after_row_.assign(static_cast<std::size_t>(rows + 1), 0.0);
         after_column_.assign(static_cast<std::size_t>(columns + 1), 0.0);
@@ -72,7 +72,7 @@ class CostSums {
         return {most, slack(n, m), after_row_.data() + 1, after_column_.data() + 1, they_add_};
     }
 
-    // Of a whole path, whose first cell is paid for once.
+    // The bound of a whole path, whose first cell is paid for once.
     double all() const noexcept {
         const double rows = after_row_[0], columns = after_column_[0];
         return they_add_ ? std::max(rows + after_column_[1], after_row_[1] + columns)

@@ -21,7 +21,8 @@ constexpr std::ptrdiff_t fewest_cells = 1'200'000;
 // The table's cells for each that is swept, roughly: threads are worth their start by these.
 constexpr std::ptrdiff_t expected_pruning = 16;
 
-// Where more of a coarse table is live, the full sweep of the fine one is expected to be as fast.
+// If a larger share of a coarse table is active, the full sweep of the fine one is expected to be
+// as fast.
 constexpr double most_live_share = 0.6;
 
 // Work before the work that the caller counts.
@@ -289,7 +290,7 @@ class DtwSearch {
     DtwPruningRecord& record_;
     runtime::Stopwatch stopwatch_;
     SweptColumns swept_;
-    double coarse_share_ = 1.0;  // of the coarse table that is live
+    double coarse_share_ = 1.0;  // active share of the coarse table
 };
 
 bool has_bounds(const SweepProblem& problem) noexcept {

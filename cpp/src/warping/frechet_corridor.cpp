@@ -36,7 +36,7 @@ ColumnRange mirrored(const ColumnRange& range, std::ptrdiff_t size) noexcept {
     return {size - 1 - range.last, size - 1 - range.first};
 }
 
-// The ends of what paths can reach never fall from row to row. Those of whole blocks may.
+// The ends of the reachable columns never fall from row to row. The ends of whole blocks may.
 void make_monotone(std::vector<ColumnRange>& rows) noexcept {
     for (std::size_t i = 1; i < rows.size(); ++i) {
         rows[i].first = std::max(rows[i].first, rows[i - 1].first);

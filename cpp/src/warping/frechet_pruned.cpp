@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The time of a cell in a block that is swept, in that of a cell of the full sweep.
+// The time of a cell in a swept block, relative to a cell of the full sweep.
 constexpr double reach_cost = 0.45;
 constexpr double value_cost = 2.5;
 
@@ -36,7 +36,7 @@ PackedCurve decimated(const PackedCurve& curve, std::ptrdiff_t step, Poller& pol
     return {points, RangeScale(1.0), PointOrder::forward, poller};
 }
 
-// The distance of decimated curves: near that of the curves, neither above nor below.
+// The distance of decimated curves: close to the distance of the curves, above or below it.
 double decimated_distance(const SweepProblem& problem, std::ptrdiff_t step) {
     const PackedCurve p = decimated(problem.curves.p, step, problem.poller);
     const PackedCurve q = decimated(problem.curves.q, step, problem.poller);
@@ -90,7 +90,7 @@ class FrechetSearch {
     double& lower() noexcept { return record_.lower; }
     double& upper() noexcept { return record_.upper; }
 
-    // Blocks of `block_side`, which say exactly what a recursion will sweep, or larger ones.
+    // Blocks of `block_side`, which show exactly what a recursion will sweep, or larger ones.
     std::ptrdiff_t most_boxes() const noexcept {
         constexpr std::ptrdiff_t most = 1 << 14;
         return std::min(runs_of(P_.size()) * runs_of(Q_.size()), most);
@@ -194,7 +194,7 @@ class FrechetSearch {
             if (threshold >= options_.cutoff) return infinity;
             lower() = threshold;
             threshold = lower() > 0.0 ? lower() * factor : upper() * smallest_step;
-            // Where passes are dear, a second one that fails would be one too many.
+            // If passes are expensive, a second one that fails would be too many.
             if (spent() > small_share) threshold = std::max(threshold, estimate);
             threshold = std::min(std::min(threshold, upper()), options_.cutoff);
             factor *= factor * factor;

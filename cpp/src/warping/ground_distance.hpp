@@ -39,8 +39,8 @@ auto with_row(Metric metric, Use use) {
     return with_row<DoubleArithmetic, DoubleRoot>(metric, use);
 }
 
-// Calls use(norm) where distances of boxes bound those of points. Elsewhere returns an empty
-// result: a bound of 0, which always holds, or no value.
+// Calls use(norm) if distances of boxes bound those of points. Otherwise returns an empty result: a
+// bound of 0, which always holds, or no value.
 template <class Use>
 auto with_norm(Metric metric, Use use) {
     return with_row(metric, [&](auto row) {
@@ -86,7 +86,7 @@ class PutOffRoot {
         if (!*this) return value;
         return metric_ == Metric::haversine ? arc(value) : std::sqrt(value);
     }
-    // Of many, in place.
+    // Applies the root to many values, in place.
     void take(double* values, std::ptrdiff_t count) const noexcept;
     // A little more than the radicand of a value, so that the rounding of squares and roots loses
     // nothing.
@@ -110,7 +110,7 @@ inline PutOffRoot put_off_root(kernels::Cost& cost, const GroundDistance& ground
 // Packed coordinate c of the point whose longitude and latitude both are x.
 double coordinate_on_sphere(double x, std::ptrdiff_t c) noexcept;
 
-// Of every curve of such a measure.
+// The requirements on every curve of such a measure.
 inline curves::Requirements requirements(const char* measure,
                                          const GroundDistance& ground) noexcept {
     return {measure, 1, false, ground.metric == Metric::haversine};

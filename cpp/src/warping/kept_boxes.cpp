@@ -9,7 +9,7 @@ namespace {
 
 constexpr double parts = 0x1p16;
 
-// Of the extent of the whole box in coordinate c.
+// The length of a part of the extent of the whole box in coordinate c.
 double part_of(const double* whole, std::ptrdiff_t c, std::ptrdiff_t dim) noexcept {
     return (whole[dim + c] - whole[c]) / parts;
 }

@@ -26,7 +26,7 @@ struct BoxLevel {
 // The finest level of a tree with at most `most` boxes.
 BoxLevel level_with(const BoxTree& tree, std::ptrdiff_t most) noexcept;
 
-// Boxes that were read: the last ones are often asked for again.
+// Boxes that were read, because the last ones are often needed again.
 struct BoxRoom {
     std::ptrdiff_t curve = -1;
     std::ptrdiff_t level = -1;

@@ -16,7 +16,7 @@ namespace curvewise::warping {
 
 class LineTable {
    public:
-    // The last value, or infinity where the last cell is dead. `window` is the same for the same
+    // The last value, or infinity if the last cell is pruned. `window` is the same for the same
     // numbers of points.
     double value(const PackedPair& curves, Metric metric, std::optional<std::ptrdiff_t> window,
                  const CostToGo& cost_to_go);

@@ -16,7 +16,8 @@
 
 namespace curvewise::warping {
 
-// What the rest of a path costs at least, and what a whole path may cost: which cells are dead.
+// The least cost of the rest of a path, and the largest valid cost of a whole path: they decide
+// which cells are pruned.
 struct CostToGo {
     // No path that costs more is of interest.
     double most;

@@ -42,7 +42,8 @@ double sum_of(const double* terms, std::ptrdiff_t count) noexcept {
     return active_level().kernels->sum(terms, count);
 }
 
-// Of runs of `points` points of a curve of `size`, a term for every point, except for the first.
+// The sum over runs of `points` points of a curve of `size`, with a term for every point except the
+// first.
 double sum_but_one(const double* terms, std::ptrdiff_t runs, std::ptrdiff_t points,
                    std::ptrdiff_t size) noexcept {
     if (runs == 1) return terms[0] * static_cast<double>(size - 1);

@@ -68,7 +68,8 @@ class KeptBounds {
     BoxLevel boxes(std::ptrdiff_t j, int level, BoxRoom& room) const {
         return boxes_.read(j, limit_of(level), summary(j) + 2 * dim_, dim_, room);
     }
-    // Of a level of the bounds, among KeptBoxes::most_boxes: the finest boxes are the last level's.
+    // The index of a level of the bounds in KeptBoxes::most_boxes: the finest boxes are the last
+    // level's.
     static constexpr std::size_t limit_of(int level) noexcept {
         return static_cast<std::size_t>(3 - level);
     }
@@ -99,7 +100,7 @@ class BandedBoxes {
     std::vector<std::ptrdiff_t> last_;
 };
 
-// Of one P. For one thread.
+// The bounds of one P. For one thread.
 class PairBounds {
    public:
     static constexpr int levels = 4;
@@ -110,7 +111,7 @@ class PairBounds {
 
     // Those of level 0, of all kept curves.
     void quick(double* bounds) const;
-    // Whether that of curve j holds the distances of the ends.
+    // Whether the bound of curve j includes the distances of the ends.
     bool has_looked_at_ends(std::ptrdiff_t j) const noexcept { return is_bounded(j); }
     // That of a level above 0 and curve j, whose points are `q`.
     double refined(std::ptrdiff_t j, const PackedCurve& q, int level);
@@ -156,7 +157,7 @@ class PairBounds {
                        AlignedBuffer& terms) const;
     // Makes bounds of distances of boxes.
     void finish(double* bounds, std::ptrdiff_t count) const noexcept;
-    // The larger of what P's parts cost and what Q's do, or their sum.
+    // The larger of the costs of P's parts and of Q's, or their sum.
     double combined(double rows, double columns, double first_row, double first_column) const;
 
     const WarpingOptions& options_;
@@ -182,7 +183,7 @@ class PairBounds {
     BandedValues values_of_rows_;
     BandedValues values_of_columns_;
     AlignedBuffer reversed_;        // P, if each of its points has a value
-    AlignedBuffer nearest_values_;  // to Q's points, of those of their bands in P
+    AlignedBuffer nearest_values_;  // nearest to Q's points, among those of their bands in P
     AlignedBuffer merged_;          // boxes of P, in one dimension
     AlignedBuffer merged_of_kept_;  // of Q
     std::ptrdiff_t merged_count_ = 0;

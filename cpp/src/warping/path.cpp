@@ -74,7 +74,7 @@ class PathFinder {
         double end_value;
     };
 
-    // Of a table whose columns are limited, only these take codes.
+    // In a table with limited columns, only these columns take codes.
     std::ptrdiff_t codes_of(const Region& region) const {
         const bool is_limited = problem_.columns.is_limited();
         return is_limited ? CodeLayout(problem_, region).size : region.rows * region.columns;

@@ -115,7 +115,7 @@ Recurrence without_costs(Recurrence recurrence) {
         step.constant = 0.0;
         for (StepTerm& term : step.terms) term.weight = 0.0;
     }
-    // That of the first cell is finite, too, whatever the distance of its points.
+    // The cost of the first cell is finite, too, for any distance of its points.
     recurrence.pair = PairCost::apart;
     recurrence.threshold = infinity;
     recurrence.gaps = Gaps::none;
@@ -294,7 +294,7 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         for (std::ptrdiff_t c = 0; c < curves.dim(); ++c) use(c);
     }
 
-    // Of curves of this largest magnitude.
+    // The range of curves of this largest magnitude.
     RangeScale range_of(double largest) const noexcept {
         const RangeScale range = warping::range_of(recurrence_.ground, largest);
         if (recurrence_.gaps == Gaps::to_point) return range.with_coordinate(recurrence_.gap);
@@ -320,7 +320,7 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         return range.restore(value, warping::degree(recurrence_.ground.metric));
     }
 
-    // Of a value that belongs to the first n and m points of the curves.
+    // The final value for the first n and m points of the curves.
     double finished(double value, std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
         if (recurrence_.per != Per::matches) return value / warping::divisor(recurrence_.per, n, m);
         return std::max(0.0, 1.0 + value / static_cast<double>(std::min(n, m)));
@@ -341,7 +341,7 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
 bool Recurrence::is_symmetric() const {
     if (per == Per::rows || per == Per::columns) return false;
     if (ends.p_begin != ends.q_begin || ends.p_end != ends.q_end) return false;
-    // Of each kind of cost the one with P and Q in each other's place, in the order of CostFrom.
+    // Each kind of cost with P and Q exchanged, in the order of CostFrom.
     constexpr CostFrom turned[] = {CostFrom::pair,   CostFrom::column_gap,  CostFrom::row_gap,
                                    CostFrom::offset, CostFrom::column_move, CostFrom::row_move};
     static_assert(static_cast<std::size_t>(CostFrom::column_move) + 1 == std::size(turned));

@@ -350,7 +350,7 @@ void RecurrenceSweep::aim(kernels::RecurrenceStrip& strip, const Part& part, std
     strip.high_lane = reach - 1;
 }
 
-// Of whole rows, since steps visit cells outside of the window too.
+// Requests the distances of whole rows, since steps also visit cells outside of the window.
 void RecurrenceSweep::ask_for_distances(kernels::Strip& ground, std::ptrdiff_t first) {
     memory_.own_distances.reserve(ground.rows * ground.columns);
     double* const distances = memory_.own_distances.data();

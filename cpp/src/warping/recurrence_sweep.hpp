@@ -55,7 +55,7 @@ class RecurrenceSweep {
         std::ptrdiff_t column;
     };
 
-    // Of infinity where all paths are found to be above `give_up`.
+    // An end with the value infinity if all paths are above `give_up`.
     End end(double give_up);
     void write_table(double* out);
     // The cells of a path to there from where it begins.
@@ -96,7 +96,7 @@ class RecurrenceSweep {
     PackedPair curves_;
     kernels::AdvanceRecurrence advance_;
     kernels::CostFunction fill_;
-    kernels::RecurrenceStrip whole_{};  // what all strips have in common
+    kernels::RecurrenceStrip whole_{};  // the common data of all strips
     Band band_;
     Poller& poller_;
     RecurrenceMemory& memory_;
@@ -106,7 +106,7 @@ class RecurrenceSweep {
     double sum_of_column_gaps_ = 0.0;
     double* left_border_ = nullptr;  // of the row `reach` above the first, and so on
     double reentry_;                 // the least of it
-    double* ends_ = nullptr;         // of each row the cell in the last column, where asked for
+    double* ends_ = nullptr;         // the cell of each row in the last column, if requested
     std::vector<std::array<std::int64_t, 2>> found_;  // backwards
 };
 

@@ -28,7 +28,7 @@ using warping::PointOrder;
 using warping::SoftSweep;
 using warping::WarpingOptions;
 
-// The window, checked as that of dtw is, and gamma.
+// The window, checked as for dtw, and gamma.
 WarpingOptions checked_options(const SoftDtwOptions& options) {
     if (!(options.gamma > 0.0 && std::isfinite(options.gamma))) {
         std::ostringstream message;  // std::to_string writes 1e-9 as 0.000000

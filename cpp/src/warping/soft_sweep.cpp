@@ -41,8 +41,8 @@ void ScaledRow::clear() noexcept {
     std::fill(exponents.begin(), exponents.end(), exponent_of_zero);
 }
 
-// Lane k of diagonal t is at index k + 1 of at(t). Two diagonals more than there are have room, for
-// what comes from below.
+// Lane k of diagonal t is at index k + 1 of at(t). There is memory for two more diagonals, for
+// contributions from below.
 class SoftSweep::ShareTable {
    public:
     ShareTable(const SoftSweep& sweep, std::ptrdiff_t height) : stride_(height + 2) {

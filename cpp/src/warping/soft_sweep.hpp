@@ -56,9 +56,9 @@ class SoftSweep {
     Strip strip(std::ptrdiff_t first_row, std::ptrdiff_t height) const noexcept;
     // The row above the first.
     ScaledRow start() const;
-    // Writes the strip's last row to `below`, and the shares where asked for.
+    // Writes the strip's last row to `below`, and the shares if requested.
     void forward(const Strip& strip, const ScaledRow& above, ScaledRow& below, ShareTable* shares);
-    // Replaces what the strip below adds by what this one does.
+    // Replaces the contributions of the strip below by those of this one.
     void backward(const Strip& strip, ShareTable& shares, FromBelow& from_below, double* by_p,
                   double* by_q);
     // Moves the range of lanes on to diagonal t.

@@ -18,14 +18,13 @@ namespace curvewise::warping {
 
 // What the sweeping threads say to each other of a strip's last row, in the order of Pipeline.
 struct StripEdge {
-    std::ptrdiff_t first =
-        0;  // the first live column; said with the first column that is published
+    std::ptrdiff_t first = 0;  // the first active column; published with the first column
     std::ptrdiff_t last = -1;  // the last column that was swept; said when the strip is finished
 };
 
 class StripNarrower {
    public:
-    // Diagonals between two looks: each lets the live lanes grow by one, and looks at those lanes.
+    // Diagonals between two tests: each lets the active lanes grow by one, and tests those lanes.
     static std::ptrdiff_t stride(const kernels::Strip& strip) noexcept {
         return std::clamp<std::ptrdiff_t>(strip.rows / 8, 2, 16);
     }
@@ -43,8 +42,8 @@ class StripNarrower {
                std::ptrdiff_t* first_column) noexcept;
     // The strip above the present one is finished.
     void above_is_finished() noexcept;
-    // After some diagonals: drops dead lanes at both ends. False where no live lane is left, or
-    // can come.
+    // After some diagonals: drops pruned lanes at both ends. False if no lane is active, or can
+    // become active.
     bool narrow(kernels::Strip& strip, std::ptrdiff_t* first_column,
                 std::ptrdiff_t* last_column) noexcept;
     // Whether a path may have left the strip through its last row; from then on, the row's contents

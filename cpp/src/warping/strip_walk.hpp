@@ -50,21 +50,20 @@ struct CodeLayout {
 // every diagonal, and the walks of two threads must not share a line.
 class alignas(128) StripWalk {
    public:
-    // `edges`: what narrowing needs, see StripNarrower.
+    // `edges`: the data for narrowing, see StripNarrower.
     StripWalk(const StripPlan& plan, bool starts_here, double* boundary, SweepMemory& memory,
               StripEdge* edges);
 
     // For the caller's own distances, of the columns that the strip may hold; before it is entered.
     void ask_for_distances(std::ptrdiff_t strip);
     void enter(std::ptrdiff_t strip) noexcept;
-    // Up to the diagonal `end`, or to where the strip turns out to end. Returns the share of the
-    // strip's rows times all columns of the region that this is: what a caller counts as done,
-    // whatever the band leaves out.
+    // Advances to the diagonal `end`, or to the strip's actual end. Returns the completed share of
+    // the strip's rows times all columns of the region. A caller counts this as done, for any band.
     std::int64_t advance(std::ptrdiff_t end) noexcept;
     // After the last diagonal. Returns the rest of that share.
     std::int64_t leave() noexcept;
 
-    // Of the strip above, finished, before a strip can be entered.
+    // The columns of the strip above that must be finished before a strip can be entered.
     std::ptrdiff_t columns_to_enter(std::ptrdiff_t strip) const noexcept {
         return narrower_.is_on() ? 1 : plan_->columns(strip * plan_->height()).first;
     }

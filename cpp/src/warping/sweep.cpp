@@ -12,19 +12,19 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The time a cell takes, roughly, in that of the fastest.
+// The approximate time of a cell, relative to the fastest.
 std::ptrdiff_t cell_weight(const SweepProblem& problem) noexcept {
     const GroundDistance ground{problem.cost.metric};
     return static_cast<std::ptrdiff_t>(ground.weight(static_cast<double>(problem.curves.dim())));
 }
 
-// Columns between two looks at the poller and at what other threads have done: some 10^5 cells, 50
-// to 200 µs, or fewer where a cell has many coordinates.
+// Columns between two polls and tests of other threads' progress: about 10^5 cells, 50 to 200 µs,
+// or fewer if a cell has many coordinates.
 std::ptrdiff_t chunk_of(const SweepProblem& problem) noexcept {
     return std::clamp<std::ptrdiff_t>(4096 / cell_weight(problem), 1, 1024);
 }
 
-// The same where threads share a narrowed strip: few columns are live in it.
+// The same for threads that share a narrowed strip, which has few active columns.
 constexpr std::ptrdiff_t narrow_chunk = 64;
 
 // Whether to stop.

@@ -1,7 +1,7 @@
 // The cumulative table of DTW or Fréchet, or a rectangle of it, swept strip by strip (see
-// kernels/strip.hpp). Only the row below the last strip is kept, O(m) memory, and what the caller
-// asks for besides. Strips may be shared out among threads: each waits, a chunk of columns at a
-// time, for the one above it. The number of threads changes no value.
+// kernels/strip.hpp). Only the row below the last strip is kept, O(m) memory, and the further
+// outputs that the caller requests. Threads may share strips: each waits, a chunk of columns at a
+// time, for the strip above. The number of threads changes no value.
 #pragma once
 
 #include <cstddef>

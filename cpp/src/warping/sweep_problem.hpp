@@ -82,8 +82,8 @@ struct SweepProblem {
 using Region = TableBlock;
 
 Region whole_table(const PackedPair& curves) noexcept;
-// The virtual row above the table, its first columns: 0 where a path may begin. Beyond what the
-// first row holds it stays infinite, as a row that reaches further right must find it.
+// The virtual row above the table, its first columns: 0 where a path may begin. Beyond the columns
+// of the first row it stays infinite, as a row that reaches further right requires.
 void assign_start(const SweepProblem& problem, std::ptrdiff_t columns, Row& row);
 
 // Where the codes of a strip's predecessors begin in an array of all of them.

@@ -44,7 +44,7 @@ class PointPair {
     double largest() const noexcept { return largest_; }  // |difference|, and the first of them
     std::ptrdiff_t place_of_largest() const noexcept { return place_of_largest_; }
 
-    // Of longitudes and latitudes: by coordinate c of the point of Q.
+    // For longitudes and latitudes: by coordinate c of the point of Q.
     double half_chord() const noexcept {
         const auto p = curves::on_sphere(p_[0], p_[1]), q = curves::on_sphere(q_[0], q_[1]);
         return std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
@@ -84,8 +84,8 @@ class Sums {
         clear(out.by_q, Q);
     }
 
-    // Weight times the derivative by both points; nothing where they coincide. All ground distances
-    // are symmetric, and depend on differences alone, except for those of degree 0.
+    // Adds the weight times the derivative by both points; nothing if they coincide. All ground
+    // distances are symmetric, and depend on differences alone, except for those of degree 0.
     template <class Row>
     void add(PointPair& at, std::ptrdiff_t i, std::ptrdiff_t j, double weight) noexcept {
         if (at.largest() == 0.0) return;
@@ -148,7 +148,7 @@ namespace {
 // Relative to the distance: pairs that tie.
 constexpr double tied = 1e-13;
 
-// Of the pairs of a path, the one that is furthest apart, and whether no other one is.
+// The pair of a path that is furthest apart, and whether it is the only one.
 struct Decisive {
     std::array<std::int64_t, 2> pair;
     bool is_alone;

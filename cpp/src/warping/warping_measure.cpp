@@ -37,7 +37,7 @@ class WarpingMeasure : public pairwise::SweptMeasure {
     using PreparedP = warping::PackedSide<PointOrder::forward>;
     using PreparedQ = warping::PackedSide<PointOrder::reversed>;
 
-    // Of dtw, or of frechet.
+    // The measure for dtw or frechet.
     template <class Options>
     explicit WarpingMeasure(const Options& options) : options_(warping::checked_options(options)) {}
     curves::Requirements requirements() const noexcept {

@@ -48,8 +48,8 @@ struct ValueBlock {
     std::ptrdiff_t rows;
     std::ptrdiff_t columns;
 
-    // The values above every column and before every row; on the way out, those of the last row
-    // and the last column.
+    // Before the call: the values above every column and before every row. After it: the values of
+    // the last row and the last column.
     double* above;
     double* beside;
     double corner;

@@ -64,7 +64,7 @@ constexpr Shape shape_of(const StepSet& set, bool has_penalty) noexcept {
     return shape;
 }
 
-// Of points matched, with the cost of the pair, or left out.
+// The steps of matched points, with the cost of the pair, and of deleted points.
 constexpr Shape edit_shape(bool has_constant, int gaps, Source row, Source column) noexcept {
     Shape shape;
     shape.begin_step(1, 1, false);
@@ -168,7 +168,7 @@ struct CompiledSteps {
         return s;
     }
 
-    // Those of the steps whose term `depth` before their last one is that of step s.
+    // The steps whose term `depth` before their last one is equal to that of step s.
     static constexpr Set sharing(Set steps, int s, int depth) noexcept {
         Set found = Set{1} << s;
         for (int other = s + 1; other < shape.step_count; ++other) {

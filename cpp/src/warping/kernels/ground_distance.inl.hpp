@@ -83,7 +83,7 @@ void each_distance(const MixedEuclideanCost& cost, std::ptrdiff_t t, std::ptrdif
         low, high, [&](std::ptrdiff_t k) { return cost.at(t, k); }, use);
 }
 
-// Sum of |difference|: what every metric except sqeuclidean is in one dimension.
+// Sum of |difference|: every metric except sqeuclidean equals this in one dimension.
 template <int dim>
 struct AbsoluteCost : SquaredCost<dim> {
     using SquaredCost<dim>::SquaredCost;

@@ -1,5 +1,6 @@
-// What a search asks of an instruction-set level: the value of DTW (symmetric1) of two curves in
-// one dimension, without the cells that are dead. As for strips, pointers and sizes only.
+// The function that a search needs from an instruction-set level: the value of DTW (symmetric1) of
+// two curves in one dimension, without the pruned cells. As for strips, only pointers and sizes
+// cross the boundary.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,7 @@ struct Line {
     // line_height. Both never fall from row to row. The arrays have that much padding behind them.
     const double* first_step;
     const double* last_step;
-    // Which cells are dead, see CostToGo.
+    // The bounds that prune cells, see CostToGo.
     double most;
     double slack;
     const double* after_row;
@@ -29,7 +30,7 @@ struct Line {
     double* row;
 };
 
-// The last value, or infinity where the last cell is dead.
+// The last value, or infinity if the last cell is pruned.
 using LineFunction = double (*)(const Line& line) noexcept;
 
 }  // namespace curvewise::kernels

@@ -51,7 +51,7 @@ class LineSweep {
             }
             return simd::pfirst(before);
         }
-        // Of all that later steps begin with.
+        // The least of all values that later steps begin with.
         Pack least() const noexcept {
             Pack least = simd::pmin(values[0], diagonals[0]);
             for (std::ptrdiff_t r = 1; r < packs; ++r) {
@@ -76,7 +76,7 @@ class LineSweep {
                        simd::pset1<Pack>(line_.most)) == 0;
     }
 
-    // The `rows` rows from `row` on. False where all of the last one is dead.
+    // Sweeps the `rows` rows from `row` on. False if all of the last row is pruned.
     bool sweep(std::ptrdiff_t row, std::ptrdiff_t rows) noexcept {
         const std::ptrdiff_t bottom = row + rows - 1;
         const std::ptrdiff_t first_of_top = first_step(row), last_of_top = last_step(row);
@@ -170,7 +170,7 @@ class LineSweep {
     }
 
     const Line& line_;
-    // The live columns of the last row that was swept: before the first row, the corner alone.
+    // The active columns of the last swept row; before the first row, the corner alone.
     std::ptrdiff_t first_ = 0;
     std::ptrdiff_t last_ = -1;
     double corner_ = 0.0;

@@ -30,7 +30,7 @@ struct LaneStep {
     int diagonals_back;
     int rows_back;
     double constant;
-    int end_term;  // its terms end before this one, and begin where those of the last step end
+    int end_term;  // its terms end before this one, and begin at the end of the last step's terms
 };
 
 struct RecurrenceStrip {
@@ -42,7 +42,7 @@ struct RecurrenceStrip {
     PairRule rule;
     double threshold;
     std::ptrdiff_t reach;
-    std::ptrdiff_t lanes;  // those of the rows above, and the strip's own
+    std::ptrdiff_t lanes;  // lanes of the rows above, and of the strip's own rows
     std::ptrdiff_t columns;
     // Lane k may hold columns first_column[k]..last_column[k]; both never fall.
     const std::ptrdiff_t* first_column;
@@ -97,7 +97,7 @@ using AdvanceRecurrence = void (*)(RecurrenceStrip& strip, std::ptrdiff_t end,
 
 // What one instruction-set level offers.
 struct RecurrenceKernels {
-    // The sweep that is compiled for these steps, or that of any.
+    // The sweep that is compiled for these steps, or the general one.
     AdvanceRecurrence (*advance)(const LaneStep* steps, std::ptrdiff_t step_count,
                                  const LaneTerm* terms) noexcept;
     // `rows`: of a strip, at most.

@@ -261,7 +261,7 @@ void advance(RecurrenceStrip& strip, std::ptrdiff_t end, CostFunction fill) noex
     for (std::ptrdiff_t t = strip.next_diagonal; t < end; ++t) {
         std::ptrdiff_t& low = strip.low_lane;
         std::ptrdiff_t& high = strip.high_lane;
-        // Of the strip's rows each begins and ends later than the one above.
+        // Each of the strip's rows begins and ends later than the one above.
         if (high + 1 < strip.lanes && strip.first_column[high + 1] + high + 1 <= t) ++high;
         if (low <= high && strip.last_column[low] + low < t) ++low;
         rotate(strip.values, strip.value_count);

@@ -71,7 +71,7 @@ class ResidentPoints {
             for (std::ptrdiff_t k = 0; k < resident_rows; ++k) {
                 const std::ptrdiff_t r = k % registers, l = k / registers;
                 of_rows_[c][r * width + l] = k < strip.rows ? p[k] : 0.0;
-                // Of the diagonals before the next one.
+                // The points of the diagonals before the next one.
                 of_diagonals_[c][r * width + l] =
                     of_column(c, strip.next_diagonal + r - (l + 1) * registers);
             }
@@ -152,7 +152,7 @@ struct ResidentValues {
             kept[r] = Keep::of(last[r], left);
         }
     }
-    // Of a row of the strip; of the last of all at once.
+    // The last value of a row of the strip.
     EIGEN_ALWAYS_INLINE double last_of(std::ptrdiff_t row) const noexcept {
         if (row + 1 == resident_rows) return simd::pfirst(turn(last[registers - 1]));
         double lanes[resident_rows];
@@ -169,7 +169,8 @@ void advance_resident(Strip& strip, std::ptrdiff_t end, CostFunction) noexcept {
     ResidentValues values(strip);
     double* const boundary = strip.boundary;
     const std::ptrdiff_t columns = strip.columns, bottom = strip.rows - 1;
-    // Of the row above, in all lanes: of two numbers, a compiler would branch on which is less.
+    // The value of the row above, in all lanes: with two scalars, a compiler would branch on their
+    // order.
     Pack above = simd::pset1<Pack>(strip.before_last[0]);
     for (std::ptrdiff_t t = strip.next_diagonal; t < end;) {
         const std::ptrdiff_t stop = end - t < Points::together ? end : t + Points::together;

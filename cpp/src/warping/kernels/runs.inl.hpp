@@ -6,7 +6,7 @@
 constexpr std::ptrdiff_t run_packs = 4;  // additions that do not wait for each other
 static_assert(runs_at_once % (run_packs * width) == 0);
 
-// Of `run_packs` vectors of runs from k on, in one coordinate.
+// Finds the scales of `run_packs` vectors of runs from k on, in one coordinate.
 inline void find_scales(const RunsAndBoxes& runs, std::ptrdiff_t k) noexcept {
     const Pack length = simd::pset1<Pack>(static_cast<double>(runs.length));
     Pack sums[run_packs], means[run_packs];

@@ -32,8 +32,8 @@ struct Shares {
     double* diagonal;
 };
 
-// Cells low..high of diagonal t from those of t - 1 and t - 2. `cost` has the squared distance of
-// lane k at k, `scale` is log2(e) / gamma.
+// Computes cells low..high of diagonal t from diagonals t - 1 and t - 2. `cost` has the squared
+// distance of lane k at k, `scale` is log2(e) / gamma.
 struct SoftStep {
     const double* cost;
     double scale;

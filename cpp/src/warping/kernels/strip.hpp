@@ -36,7 +36,7 @@ inline constexpr std::ptrdiff_t resident_rows = 32;
 
 enum class Recurrence { dtw_symmetric1, dtw_symmetric2, frechet };
 
-// The predecessor of a cell, as stored per cell when a path is asked for.
+// The predecessor of a cell, as stored per cell if a path is requested.
 enum Predecessor : std::uint8_t { diagonal = 0, up = 1, left = 2 };
 
 struct Strip {
@@ -72,8 +72,8 @@ struct Strip {
     double* origin_before_last;
     double* origin_current;
 
-    // Where asked for: the predecessor of lane k on diagonal t, at codes[t * code_stride + k];
-    // the cell of row k and column j, at table[k * table_stride + j].
+    // If requested: the predecessor of lane k on diagonal t, at codes[t * code_stride + k]; the
+    // cell of row k and column j, at table[k * table_stride + j].
     std::uint8_t* codes;
     std::ptrdiff_t code_stride;
     double* table;
@@ -96,7 +96,7 @@ using ArcFunction = void (*)(double* values, std::ptrdiff_t count, double radius
 // per diagonal where the cost is not fused.
 using AdvanceFunction = void (*)(Strip& strip, std::ptrdiff_t end, CostFunction fill) noexcept;
 
-// Narrow: where few lanes are expected to be live at a time.
+// Narrow: if few lanes are expected to be active at a time.
 enum class Output { boundary_only, origins, codes, narrow_codes, table };
 
 // A ground distance, and whether every sum of squares is 0 or within the domain of the fast square
