@@ -21,8 +21,10 @@ from ..installation import build_info, get_cmake_dir, get_include
 from .compare import add_compare
 from .demo import add_demo
 from .fit import add_fit
+from .flow import add_flow
 from .identify import add_identify
 from .info import add_info
+from .overlay import add_overlay
 from .report import add_report
 from .selfcheck import add_selfcheck
 
@@ -132,6 +134,16 @@ def _parser() -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(title="commands", metavar="command", required=True)
 
-    for add in (add_compare, add_fit, add_identify, add_demo, add_report, add_selfcheck, add_info):
+    for add in (
+        add_compare,
+        add_fit,
+        add_flow,
+        add_overlay,
+        add_identify,
+        add_demo,
+        add_report,
+        add_selfcheck,
+        add_info,
+    ):
         add(commands)
     return parser

@@ -21,7 +21,7 @@ from .shown import failures_unlogged, require_matplotlib
 if TYPE_CHECKING:
     from ..fitting import PreparedTest
 
-__all__ = ["add_fit"]
+__all__ = ["Quantity", "add_fit", "quantity_of"]
 
 _NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\d\s].*)?")
 
@@ -136,7 +136,7 @@ class Quantity(NamedTuple):
 def _known(text: str) -> tuple[str, Quantity]:
     """Read a name and a number."""
     name, _, number = text.partition("=")
-    return name, _quantity(number, text, "NAME=VALUE, for example E=206e3 or E=206GPa")
+    return name, quantity_of(number, text, "NAME=VALUE, for example E=206e3 or E=206GPa")
 
 
 def _bounded(text: str) -> tuple[str, tuple[Quantity, Quantity]]:
@@ -144,10 +144,10 @@ def _bounded(text: str) -> tuple[str, tuple[Quantity, Quantity]]:
     wanted = "NAME=LOW:HIGH, for example Q=0:200"
     name, _, both = text.partition("=")
     low, _, high = both.partition(":")
-    return name, (_quantity(low, text, wanted), _quantity(high, text, wanted))
+    return name, (quantity_of(low, text, wanted), quantity_of(high, text, wanted))
 
 
-def _quantity(written: str, text: str, wanted: str) -> Quantity:
+def quantity_of(written: str, text: str, wanted: str) -> Quantity:
     """Read a number with or without a unit of stress."""
     found = _NUMBER.fullmatch(written.strip())
     if found is None or (found[2] and in_mpa(found[2]) is None):

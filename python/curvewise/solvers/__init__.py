@@ -14,12 +14,14 @@ from .calculix_frd import read_calculix_frd
 from .cards import SolverCard, TabulatedLayer, read_card
 from .ls_dyna_binout import read_ls_dyna_binout
 from .ls_dyna_text import read_ls_dyna_elout, read_ls_dyna_nodout
+from .overlaid_mesh import overlaid_mesh
 from .solver_output import SolverOutput
 
 __all__ = [
     "SolverCard",
     "SolverOutput",
     "TabulatedLayer",
+    "overlaid_mesh",
     "read_abaqus_dat",
     "read_calculix_dat",
     "read_calculix_frd",

@@ -12,9 +12,19 @@ import re
 from ..._names import did_you_mean
 from . import abaqus, ansys, calculix, code_aster, ls_dyna, mfront
 from .content import CardContent, SolverCard, TabulatedLayer
+from .flow_tables import TABLES, flow_table
 from .keyword_file import blocks_of, materials_of
 
-__all__ = ["FORMATS", "CardContent", "SolverCard", "TabulatedLayer", "card_text", "read_card"]
+__all__ = [
+    "FORMATS",
+    "TABLES",
+    "CardContent",
+    "SolverCard",
+    "TabulatedLayer",
+    "card_text",
+    "flow_table",
+    "read_card",
+]
 
 FORMATS = {
     form.solver: form

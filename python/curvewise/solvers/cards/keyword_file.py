@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from ..solver_output import as_number, lines_of
 
-__all__ = ["Block", "blocks_of", "materials_of"]
+__all__ = ["Block", "blocks_of", "keyword_of", "materials_of"]
 
 
 class Block(NamedTuple):
@@ -45,14 +45,18 @@ def blocks_of(path: str | os.PathLike[str]) -> tuple[list[Block], list[str]]:
         if text.startswith("**"):
             comments.append(text[2:].strip())
         elif text.startswith("*"):
-            keyword, *options = text.split(",")
-            pairs = [option.partition("=") for option in options]
-            named = {_plain(name): value.strip().strip('"') for name, _, value in pairs}
-            blocks.append(Block(_plain(keyword), named, []))
+            blocks.append(Block(*keyword_of(text), []))
         elif blocks and blocks[-1].keyword in _READ:
             words = [word.strip() for word in text.split(",")]
             blocks[-1].numbers.extend(as_number(word, place) for word in words if word)
     return blocks, comments
+
+
+def keyword_of(line: str) -> tuple[str, dict[str, str]]:
+    """Return the keyword of a line in capitals, and its options by name."""
+    keyword, *options = line.split(",")
+    pairs = [option.partition("=") for option in options]
+    return _plain(keyword), {_plain(name): value.strip().strip('"') for name, _, value in pairs}
 
 
 def _plain(word: str) -> str:
