@@ -26,6 +26,7 @@ from .hausdorff import hausdorff
 from .hausdorff_continuous import hausdorff_continuous, hausdorff_continuous_points
 from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, normalize, sum_of_squares
+from .shape import sbd
 from .soft_dtw import soft_dtw, soft_dtw_divergence
 from .step_pattern import StepPattern
 from .symmetric_difference import symmetric_difference
@@ -56,6 +57,7 @@ __all__ = [
     "normalize",
     "pcm",
     "pcm_match",
+    "sbd",
     "soft_dtw",
     "soft_dtw_divergence",
     "sum_of_squares",

@@ -40,7 +40,7 @@ class CurveKMedoids(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # unty
     Parameters
     ----------
     n_clusters : int
-        How many clusters.
+        Number of clusters.
     measure : str or callable
         A measure by its name, see :func:`curvewise.available_measures`, or a function of two
         curves. Where it is not symmetric, the medoid is Q. Or "precomputed": X is then the matrix

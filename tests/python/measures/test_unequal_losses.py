@@ -142,12 +142,17 @@ def test_divergence_is_numpys_with_the_limits_of_differences() -> None:
 @both_packages
 def test_a_model_is_trained_on_unequal_series(name) -> None:
     P, Q = curves_of([5, 9, 7], 0), curves_of([6, 9, 4], 1)
-    before = None
+    before, one_by_one = None, list(Q)
     for _ in range(30):
         values, _, by_Q = measured(name, "soft_dtw_divergence", P, Q)
         before = before or values.sum()
         weights = [1.0, 2.0, 3.0]
         Q = [C - 0.02 * slope / w for C, slope, w in zip(Q, by_Q, weights, strict=True)]
+        for k, pair in enumerate(zip(P, one_by_one, strict=True)):
+            value, _, slope = loss_and_gradients(*pair, "soft_dtw_divergence", {})
+            assert values[k] == value
+            one_by_one[k] = one_by_one[k] - 0.02 * (slope * weights[k]) / weights[k]
+            assert np.array_equal(Q[k], one_by_one[k])
     assert values.sum() < 0.2 * before
 
 
