@@ -107,6 +107,27 @@ def test_add_subdirectory_leaks_nothing(tmp_path) -> None:
     assert not (tmp_path / "prefix").exists()
 
 
+@pytest.mark.parametrize(
+    ("languages", "options", "message"),
+    [
+        ("CXX", [], "curvewise: the project sets no build type"),
+        ("C", [], "C++, which your project does not enable; write project(... LANGUAGES C CXX)"),
+        ("CXX", ["-DCURVEWISE_LEVELS=v9"], "CURVEWISE_LEVELS is 'v9'; give all or baseline"),
+    ],
+)
+def test_add_subdirectory_says_what_is_missing(languages, options, message, tmp_path) -> None:
+    lines = [
+        "cmake_minimum_required(VERSION 3.21)",
+        f"project(tool LANGUAGES {languages})",
+        f"add_subdirectory({ROOT.as_posix()} curvewise)",
+    ]
+    (tmp_path / "CMakeLists.txt").write_text("\n".join(lines))
+    prefix = f"-DCMAKE_PREFIX_PATH={PURELIB.as_posix()}"
+    done = run(*configure(tmp_path, tmp_path / "build", prefix, *options))
+    assert message in " ".join(done.stdout.split())
+    assert (done.returncode == 0) == message.startswith("curvewise:")
+
+
 @pytest.mark.nightly
 def test_fetch_content(built) -> None:
     """As a shared library: a project may set this for everything that it fetches.
