@@ -44,7 +44,7 @@ class CardsOfFit:
     def card(
         self, solver: str, *, name: str = "material", accept_undetermined: bool = False
     ) -> str:
-        """Return the material card of a solver, with the intervals as comments.
+        """Return the material card of a solver, with the verdict and the intervals as comments.
 
         Parameters
         ----------
@@ -67,15 +67,16 @@ class CardsOfFit:
         """
         if not accept_undetermined:
             check_doubts(self.doubtful, solver)
-        known = self.uncertainty
+        verdict = self.found.verdict
         return self.material.card(
             self.parameters,
             solver,
             name=name,
             units=self.units,
             intervals=self._intervals,
-            undetermined=[n for n, good in known.determined.items() if not good] if known else (),
+            undetermined=[name for name, good in verdict.usable.items() if not good],
             along=list(self.model.strains),
+            verdict=verdict.lines,
         )
 
     @property

@@ -20,15 +20,17 @@ import numpy as np
 from .._bounds import Bounds
 from .._options import Default, Missing
 from ..calibration import Identification, Uncertainty, identify
-from ..calibration.problem.tables import digits
+from ..calibration.records.search_record import Doubt
 from ..calibration.report.notes import Note
+from ..calibration.report.verdict import Verdict
 from ..curves.inputs import Array
 from ..curves.missing import named_without_gaps
 from ..curves.named_curve import NamedCurve, known_file
 from ..curves.several_curves import curve_list
-from ..curves.turns import turning_points
 from ..materials import DrivenModel, Material
+from ..showing.result import text_of
 from .beginnings import warn_of_beginnings
+from .doubts import doubts_of
 from .driven_tests import Cycles, DrivenTests, fit_criterion, fit_method
 from .fit_cards import CardsOfFit
 from .moduli import check_units, checked_names, modulus_of
@@ -40,9 +42,6 @@ from .wider_bounds import Beyond, search_within
 __all__ = ["MaterialFit", "fit_material"]
 
 _COLUMNS = ("parameter", "unit", "value", "interval_low", "interval_high", "determined", "meaning")
-
-# Beyond it a fitted modulus is no longer the slope with which a test unloads.
-_SAME_MODULUS = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,69 +85,42 @@ class MaterialFit(CardsOfFit):
     cycles: Cycles = "all"
 
     def __str__(self) -> str:
-        said = (
-            self.uncertainty,
-            self.beyond,
-            self.beginning,
-            self.one_way,
-            self.one_cycle,
-            self.remark,
-        )
-        prepared = (f"{_title(one)}\n{one}" for one in self.prepared)
-        parts = [*prepared, str(self.found), *(str(one) for one in said if one)]
+        verdict, *tables = self.found.parts()
+        notes = [self.beginning, *(f"{_title(one)}\n{one}" for one in self.prepared)]
+        intervals = [] if self.uncertainty is None else self.uncertainty.parts()
+        after = ["" if self.beyond is None else str(self.beyond)]
         if failures := self.found.failures:
-            parts.append(
+            after.append(
                 f"{len(failures)} of {self.found.evaluations} runs failed, the first: "
                 f"{failures[0][1]}"
             )
-        return "\n\n".join(parts)
+        return text_of([verdict, *filter(None, notes), *intervals, *tables, *filter(None, after)])
+
+    @property
+    def verdict(self) -> Verdict:
+        """What is said first: how far off, which parameters can be used, whether it converged.
+
+        Its ``lines`` begin the text, the page and the cards; ``usable`` says of each parameter that
+        was searched for whether it can be used.
+        """
+        return self.found.verdict
+
+    @property
+    def doubts(self) -> list[Doubt]:
+        """Parameters that are not to be used, with the reason and what would determine them."""
+        return doubts_of(
+            self.tests,
+            self.found,
+            self.uncertainty,
+            modulus_read=self.modulus_read,
+            cycles=self.cycles,
+            beyond=self.beyond,
+        )
 
     @property
     def runs(self) -> int:
         """How many runs of the model the searches took, of all bounds."""
         return self.found.evaluations
-
-    @property
-    def one_way(self) -> str:
-        """A sentence where no test turns back, or ""."""
-        if any(turning_points(test).size for test in self.tests):
-            return ""
-        return (
-            "No test turns back: they do not tell hardening that grows the yield surface from "
-            "hardening that moves it, whatever the intervals are. Do not use these parameters "
-            "under reversed load, or add a test that turns"
-        )
-
-    @property
-    def one_cycle(self) -> str:
-        """A sentence where a stabilised cycle alone has to tell yield from Q, or ""."""
-        if (
-            self.cycles != "last"
-            or "Q" not in self.found.bounds
-            or "yield" not in self.found.bounds
-        ):
-            return ""
-        return (
-            "The last cycle alone does not tell yield from Q, whatever the intervals are: it shows "
-            "their sum. Fit its size as one yield stress (curvewise fit: --fix Q=0 b=1; "
-            "fit_material: fixed={'Q': 0, 'b': 1}), or compare all cycles"
-        )
-
-    @property
-    def remark(self) -> str:
-        """A sentence where the modulus that was found is not the one that can be seen, or ""."""
-        moduli = [self.parameters[name] for name in ("E", "Ea") if name in self.parameters]
-        low, high = min(moduli) * (1.0 - _SAME_MODULUS), max(moduli) * (1.0 + _SAME_MODULUS)
-        if "E" not in self.found.bounds or low <= self.modulus_read <= high:
-            return ""
-        share = 100.0 * (self.parameters["E"] / self.modulus_read - 1.0)
-        return (
-            f"E = {digits(self.parameters['E'], 4)} is {abs(share):.0f} % "
-            f"{'above' if share > 0 else 'below'} {digits(self.modulus_read, 4)}, the slope with "
-            "which the tests unload: the fit makes up by it for what the material cannot follow. "
-            "Where E is known, give it (curvewise fit: --fix E=206e3; "
-            "fit_material: fixed={'E': 206e3})"
-        )
 
     def write(self, folder: str | os.PathLike[str], *, names: Sequence[str] = ()) -> list[Path]:
         """Write parameters.csv, report.html and fit.png into a folder, which is made.
@@ -187,7 +159,7 @@ class MaterialFit(CardsOfFit):
         return [table, report, picture]
 
     def _rows(self) -> list[dict[str, Any]]:
-        rows = []
+        rows, usable = [], self.verdict.usable
         for name, unit, meaning in self.material.parameters:
             row = {"parameter": name, "meaning": meaning}
             row["unit"] = self.units if unit == "stress" else unit
@@ -195,7 +167,7 @@ class MaterialFit(CardsOfFit):
             if self.uncertainty is not None and name in self._intervals:  # it was searched for
                 low, high = map(float, self._intervals[name])
                 row |= {"interval_low": repr(low), "interval_high": repr(high)}
-                row["determined"] = str(bool(self.uncertainty.determined[name]))
+                row["determined"] = str(usable[name])
             rows.append(row)
         return rows
 
@@ -311,7 +283,10 @@ def fit_material(
     search = partial(
         identify,
         driven.model,
-        [NamedCurve(test, ("strain [-]", f"stress [{units}]")) for test in driven.compared],
+        [
+            NamedCurve(compared, ("strain [-]", f"stress [{units}]"), known_file(test))
+            for compared, test in zip(driven.compared, given, strict=True)
+        ],
         measure=fit_criterion(measure),
         method=fit_method(measure),
         seed=seed,
@@ -326,7 +301,7 @@ def fit_material(
             f"material yields at no strain of the tests, or at once; check "
             f"{', '.join(known) or 'bounds'}"
         )
-    return MaterialFit(
+    fit = MaterialFit(
         driven.model,
         driven.compared,
         found,
@@ -338,6 +313,8 @@ def fit_material(
         prepared,
         cycles,
     )
+    found.take_down_doubts(fit.doubts)
+    return fit
 
 
 def _title(test: PreparedTest) -> str:

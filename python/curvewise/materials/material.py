@@ -196,6 +196,7 @@ class Material(ABC):
         undetermined: Collection[str] = (),
         date: str | None = None,
         along: Any = None,
+        verdict: Sequence[str] = (),
     ) -> str:
         """Return the material card of a solver, with these parameters.
 
@@ -219,6 +220,8 @@ class Material(ABC):
         along : array_like of shape (n,), or sequence of such, optional
             Strains on which a card of "calculix" shall follow the material, such as the `strains`
             of a `DrivenModel`; by default cycles that grow to ±3 %. No other solver needs it.
+        verdict : sequence of str, optional
+            Lines for the comments, such as those of `MaterialFit.verdict`.
 
         Returns
         -------
@@ -292,6 +295,7 @@ class Material(ABC):
             undetermined=frozenset(undetermined),
             along=CYCLES if along is None else paths_of(along),
             stress=lambda strain: self.stress(strain, numbers),
+            verdict=tuple(verdict),
         )
         return card_text(content, solver)
 

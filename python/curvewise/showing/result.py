@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ..drawing.picture import Picture
 
-__all__ = ["Result", "Table", "Tabular", "paragraph"]
+__all__ = ["Result", "Table", "Tabular", "paragraph", "text_of"]
 
 
 @dataclass(frozen=True)
@@ -90,10 +90,7 @@ class Tabular(ABC):
         """Return the tables and paragraphs of the result, in order."""
 
     def __str__(self) -> str:
-        parts = self.parts()  # the first columns of all tables become equally wide
-        first_width = max(part.first_width for part in parts if isinstance(part, Table))
-        texts = (part if isinstance(part, str) else part.text(first_width) for part in parts)
-        return "\n\n".join(texts)
+        return text_of(self.parts())
 
     def _repr_html_(self) -> str:
         parts = self.parts()
@@ -114,6 +111,13 @@ class Result(Tabular):
 
     def _repr_html_(self) -> str:
         return f"{super()._repr_html_()}\n{_picture(self.plot, self.picture_shows)}"
+
+
+def text_of(parts: Sequence[Table | str]) -> str:
+    """Return tables and paragraphs as text; the first columns of all tables are equally wide."""
+    first_width = max((part.first_width for part in parts if isinstance(part, Table)), default=0)
+    texts = (part if isinstance(part, str) else part.text(first_width) for part in parts)
+    return "\n\n".join(texts)
 
 
 def paragraph(text: str) -> str:

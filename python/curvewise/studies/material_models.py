@@ -12,6 +12,7 @@ from typing import Any, TypeVar, get_args, get_type_hints
 
 from .._names import did_you_mean
 from ..calibration.problem.space import Space
+from ..curves.named_curve import NamedCurve
 from ..fitting.beginnings import warn_of_beginnings
 from ..fitting.driven_tests import CYCLES, Cycles, DrivenTests
 from ..fitting.moduli import check_units, modulus_of
@@ -149,7 +150,11 @@ def drive(
     modulus = modulus_of(given_tests)
     made = replace(model, driven=driven.model, modulus_read=modulus, beginning=beginning)
     compared = zip(tests, driven.compared, strict=True)
-    return made, tuple(replace(test, experiment=curve) for test, curve in compared), bounds
+    axes = ("strain [-]", f"stress [{model.units}]")
+    named = (
+        replace(test, experiment=NamedCurve(curve, axes, test.name)) for test, curve in compared
+    )
+    return made, tuple(named), bounds
 
 
 def _options(kind: type[Material]) -> list[str]:

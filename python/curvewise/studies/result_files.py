@@ -135,7 +135,7 @@ def _contents(study: Contents, found: StudyResult) -> dict[str, Any]:
 
 
 def _one(found: Identification, uncertainty: Uncertainty | None) -> dict[str, Any]:
-    parameters = {}
+    parameters, usable = {}, found.verdict.usable
     for name, value in found.parameters.items():
         low, high = found.bounds.get(name, (value, value))
         row: dict[str, Any] = {"value": value, "low": low, "high": high}
@@ -143,7 +143,7 @@ def _one(found: Identification, uncertainty: Uncertainty | None) -> dict[str, An
             interval = uncertainty.intervals[name]
             row["standard_error"] = float(uncertainty.standard_errors[name])
             row["interval_low"], row["interval_high"] = map(float, interval)
-            row["determined"] = bool(uncertainty.determined[name])
+            row["determined"] = usable[name]
         parameters[name] = row
     contents = {
         "value": found.value,

@@ -210,7 +210,7 @@ class Study(Contents):
             return None
         ((measure, one),) = found.items()
         tests = tuple(np.asarray(test.experiment) for test in self.tests)
-        return MaterialFit(
+        fit = MaterialFit(
             model.driven,
             tests,
             one,
@@ -221,6 +221,8 @@ class Study(Contents):
             cycles=model.cycles,
             prepared=tuple(test.prepared for test in self.tests if test.prepared is not None),
         )
+        one.take_down_doubts(fit.doubts)
+        return fit
 
     def _searched(
         self, progress: bool, callback: Callable[[Progress], Any] | None

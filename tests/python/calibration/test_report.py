@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import re
 import shutil
@@ -118,7 +119,7 @@ def figures_of(text):
 def said_by(text):
     """Return the verdict of a page, without its marks."""
     (verdict,) = re.findall(r'<div class="verdict">(.*?)</div>', text, flags=re.DOTALL)
-    return re.sub(r"<.*?>", "", verdict)
+    return html.unescape(re.sub(r"<.*?>", "", verdict))
 
 
 def test_no_name_of_a_parameter_ends_the_figures(tmp_path):
@@ -143,11 +144,15 @@ def test_the_page_begins_with_a_verdict_in_units(tmp_path):
     text = (tmp_path / "x.html").read_text()
     said = said_by(text)
     assert text.index("verdict") < text.index("<nav>")
-    assert re.search(r"The test determines a .*± \d.* % and b .*± \d.* %", said)
-    assert "does not determine c" in said
+    assert re.search(r"Use: a = .*± \d.* %, b = .*± \d.* % \(95 % intervals\)", said)
+    assert re.search(r"Do not use c \(.* to .*\): the tests do not determine it", said)
     residual = np.abs(test[:, 1] - found.simulations[0][:, 1])
-    assert f"{residual.mean():.3g} MPa" in said
-    assert f"{residual.max():.3g} MPa" in said
+    rms = np.sqrt(np.mean(residual**2))
+    assert f"Deviation: {rms:.2g} MPa root mean square" in said
+    assert f"{100 * rms / np.ptp(test[:, 1]):.2g} % of the test's range of stress" in said
+    assert f"{residual.max():.2g} MPa at most" in said
+    assert said.strip().splitlines() == list(found.verdict.lines)
+    assert str(found).splitlines()[: len(found.verdict.lines)] == list(found.verdict.lines)
     assert found.message not in said
     (footnote,) = re.findall(r'<p class="footnote">(.*?)</p>', text)
     assert found.message in footnote
@@ -155,10 +160,10 @@ def test_the_page_begins_with_a_verdict_in_units(tmp_path):
 
 def test_a_verdict_of_several_tests(search):
     said = said_by(search[2])
-    assert "the model is off by" in said
-    assert said.count("Loop 0: 0.") == said.count("Loop 1: 0.") == 1
-    assert "The tests determine a" in said
-    assert re.search(r"\d+ evaluations, of which \d+ failed", said)
+    assert said.strip().splitlines() == list(search[0].verdict.lines)
+    assert said.count("Deviation from Loop 0: 0.") == said.count("Deviation from Loop 1: 0.") == 1
+    assert "Use: a = " in said
+    assert re.search(r"\d+ evaluations, of which \d+ failed", search[2])
     record = search[0].record()
     share = 100 * record.ending.uncertainty["standard_errors"]["a"] / record.ending.parameters["a"]
     both = page([record, record])
@@ -244,7 +249,9 @@ def test_cases_are_written_down_too(tmp_path):
     before = page(list(records_of(tmp_path / "s.db").values()))
     found.report(tmp_path / "found.html")
     assert (tmp_path / "found.html").read_text() == before
-    assert re.search(r"a number: -?0\.\d+ \(.* %\), for 1.1 measured", said_by(before))
+    assert re.search(
+        r"Deviation from a number: -?0\.\d+ \(.* %\), for 1.1 measured", said_by(before)
+    )
 
 
 def test_an_interrupted_search_has_a_page(tmp_path):
@@ -320,7 +327,7 @@ def test_several_searches_of_a_store_on_one_page(tmp_path, capsys):
     text = page(list(records_of(store).values()))
     assert "Search 2: curve_length" in text
     assert "front(store, tests, measures)" in text
-    assert "Intervals would take runs of the model" in text
+    assert "Intervals take" in text
     each.report(tmp_path / "each.html")
     assert (tmp_path / "each.html").read_text() == text
 

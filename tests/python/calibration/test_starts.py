@@ -115,30 +115,67 @@ def test_how_many_starts_are_enough(ends, enough):
 def test_what_may_be_said_of_the_ends():
     """Never "converged" where starts end apart, at a plateau, or where they began."""
     best = ended(5.0)
-    assert finish_of([best], 0.0, 1) == (True, "ended at 5.0")
+    assert finish_of([best], 0.0, 1) == (True, "ended at 5.0", (1, 1, 0.0), "")
     assert finish_of([best, ended(5.04), ended(5.01)], 0.0, 3) == (
         True,
         "3 of 3 starts within 1 % of the best; ended at 5.0",
+        (3, 3, pytest.approx(0.008)),
+        "",
     )
     assert finish_of([best, ended(5.04), ended(5.1)], 0.0, 3) == (
         False,
         "2 of 3 starts within 1 % of the best, others up to 2 % above; ended at 5.0",
+        (2, 3, pytest.approx(0.008)),
+        "only 2 of 3 starts agree; give closer bounds, or another seed",
     )
     assert finish_of([best, ended(5.01), ended(5.02, independent=False)], 0.0, 3) == (
         False,
         "2 of 2 starts within 1 % of the best; ended at 5.0",
+        (2, 2, pytest.approx(0.002)),
+        "only 2 of 2 starts agree; give closer bounds, or another seed",
     )
+    alone = finish_of([best, ended(6.0), ended(7.0)], 0.0, 3)
+    assert (alone.agreement, alone.reason[:22]) == ((1, 3, 0.0), "no two starts agree; g")
+    perfect = [ended(value, first=1.0) for value in (1e-9, 3e-9, 5e-9)]
+    assert finish_of(perfect, 1e-9, 3).agreement == (3, 3, 0.0)
     assert not finish_of([ended(5.0, converged=False), ended(5.01)], 0.0, 2).converged
     flat = finish_of([best, ended(5.0, place=0.3)], 0.0, 2)
     assert not flat.converged
+    assert flat.reason.startswith("several places have the same best value")
     assert flat.message.startswith("several places have the best value: the measure is flat")
     still = finish_of([ended(5.0, first=5.0)], 0.0, 1)
     assert not still.converged
+    assert still.reason.startswith("no start found a better fit than it began with")
     assert still.message.startswith("no step gained anything: the start is a minimum already, or")
     assert finish_of([ended(0.0, first=0.0)], 1e-9, 1).converged  # begun at a perfect fit
     misled = finish_of([best, ended(5.0), ended(5.0, is_misled=True)], 0.0, 2)
     assert not misled.converged
+    assert misled.reason.startswith("the model's curves jump")
     assert misled.message.startswith("the surrogate of curves misleads, and steps went by the")
+
+
+@pytest.mark.parametrize(
+    ("alike", "higher", "starts", "converged"),
+    [
+        (10, 9, 10, True),  # of whoever asks for ten, enough for the default agree
+        (4, 15, 10, True),
+        (3, 15, 10, False),  # one more than all that agree by default
+        (3, 0, 10, True),
+        (2, 0, 10, False),
+        (2, 0, 2, True),
+        (2, 1, 2, False),
+    ],
+)
+def test_what_has_arrived_where_others_ended_higher(alike, higher, starts, converged):
+    ends = [ended(5.0 + i / 1e4) for i in range(alike)] + [ended(6.0)] * higher
+    finish = finish_of(ends, 0.0, starts)
+    assert finish.converged == converged
+    assert finish.agreement[:2] == (alike, alike + higher)
+
+
+def test_starts_that_were_left_behind_do_not_agree():
+    ends = [ended(5.0), ended(5.01), ended(5.0, converged=False)]
+    assert finish_of(ends, 0.0, 3).agreement == (2, 3, pytest.approx(0.002))
 
 
 def test_equal_values_at_one_place_are_no_plateau():

@@ -46,6 +46,8 @@ def identification_of(
         part=objective.part,
         condition=objective.condition,
         recorder=ended.recorder,
+        agreement=ended.finish.agreement,
+        reason=ended.finish.reason,
     )
     if found.recorder.has_store:
         try:

@@ -25,11 +25,13 @@ from ..problem.problem import Problem
 from ..problem.tables import measure_table, parameter_table
 from ..records.evaluation import Evaluation
 from ..records.recorder import Recorder
-from ..records.search_record import Ending, SearchRecord
+from ..records.search_record import Agreement, Doubt, Ending, SearchRecord
 from ..report.notes import Note
 from ..report.page import write_report
+from ..report.shown_search import ShownSearch
 from ..report.uncertainty_summary import summary_of
-from ..uncertainty.determined import Verdict, verdict_on
+from ..report.verdict import Verdict, verdict_of
+from ..uncertainty.determined import determined_by_linear_theory
 from ..uncertainty.sensitivity import Optimum, design_runs, optimum_surfaces
 from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
 
@@ -66,7 +68,12 @@ class Identification(Result):
     converged : bool
         Whether the method met its tolerances, and no bound that was not meant stopped it.
     message : str
-        How the search ended.
+        How the search ended, as its method says it.
+    agreement : Agreement or None
+        How many starts agree, of how many, and within which fraction of the value; None for
+        methods without starts.
+    reason : str
+        Why the search has not converged, in plain words; "" where it has.
     method, seed, bounds, measure, preset, part
         As asked for.
     runs : int
@@ -100,6 +107,8 @@ class Identification(Result):
     part: Part
     condition: Condition | None = field(repr=False)
     recorder: Recorder = field(repr=False)
+    agreement: Agreement | None = field(default=None, repr=False)
+    reason: str = field(default="", repr=False)
 
     @property
     def deviations(self) -> tuple[Deviation | None, ...]:
@@ -132,7 +141,7 @@ class Identification(Result):
         return int(self.history.failed.sum()) - len(self.failures)
 
     def parts(self) -> Sequence[Table | str]:
-        """Return the parameters, the measures, the deviations, and how the search went."""
+        """Return the verdict, the parameters, the measures, the deviations, and the runs."""
         deviations = [
             f"curve {k}: {one}" for k, one in enumerate(self.deviations) if one is not None
         ]
@@ -141,27 +150,26 @@ class Identification(Result):
         failed = f", {len(self.failures)} failed" if self.failures else ""
         if outside := self.outside:
             failed += f", {outside} outside of the model's own bounds"
-        went = f"{self.method}, seed {self.seed}: {self.evaluations} evaluations{failed}"
         return [
+            str(self.verdict),
             parameter_table(self.problem.space, self.parameters),
             measure_table(self.measures, self.measure, self.preset),
             *(["\n".join(deviations)] if deviations else []),
-            f"{went}\n{self._ending()}",
+            f"{self.method}, seed {self.seed}: {self.evaluations} evaluations{failed}",
         ]
 
-    def _ending(self) -> str:
-        """Say how the search ended; what is not determined has not converged to anything."""
-        verdict = self._verdict()
-        if self.converged and verdict is not None and verdict.loose:
-            return (
-                f"undetermined: {verdict.loose}; see uncertainty(); the search ended: "
-                f"{self.message}"
-            )
-        text = f"{'converged' if self.converged else 'not converged'}: {self.message}"
-        if self.converged and verdict is None:
-            runs = self.uncertainty_runs
-            text += f"\nare the parameters determined? uncertainty() says, after {runs} runs"
-        return text
+    @property
+    def verdict(self) -> Verdict:
+        """What is said first: how far off, which parameters can be used, whether it converged.
+
+        Its ``lines`` are those at the head of the text and of the page. By what :meth:`uncertainty`
+        has given last, or else by linear theory where that takes no runs of the model. Cost: a
+        warping path for each loop, and that of `uncertainty`.
+        """
+        record = self.recorder.record()
+        if record.ending is None:
+            record = replace(record, ending=Ending.from_json(self.ending().to_json()))
+        return verdict_of(ShownSearch(record))
 
     @property
     def uncertainty_runs(self) -> int:
@@ -179,11 +187,7 @@ class Identification(Result):
         within 25 % of its value and of its bounds' range. None if that would take runs
         (`uncertainty_runs`).
         """
-        verdict = self._verdict()
-        return None if verdict is None else verdict.determined
-
-    def _verdict(self) -> Verdict | None:
-        return None if self.uncertainty_runs else verdict_on(self._optimum())
+        return None if self.uncertainty_runs else determined_by_linear_theory(self._optimum())
 
     def uncertainty(
         self,
@@ -340,6 +344,21 @@ class Identification(Result):
         self._take_down(uncertainty)
         return self.recorder.record()
 
+    def take_down_doubts(self, doubts: Sequence[Doubt]) -> None:
+        """Write down which parameters are not to be used, for the verdict.
+
+        Parameters
+        ----------
+        doubts : sequence of Doubt
+            Those of whoever knows the model and the tests; they replace earlier ones.
+
+        Raises
+        ------
+        OSError, ValueError
+            The store of the search cannot be written.
+        """
+        self.recorder.end(replace(self.recorder.ending or self.ending(), doubts=tuple(doubts)))
+
     def _take_down(self, uncertainty: Uncertainty | None) -> None:
         """Write down how the search ended, with what is known of the uncertainty."""
         ending = self.recorder.ending or self.ending()
@@ -364,6 +383,8 @@ class Identification(Result):
             simulations=self.simulations,
             unit=unit,
             slopes=slopes,
+            agreement=self.agreement,
+            reason=self.reason,
         )
 
     @property

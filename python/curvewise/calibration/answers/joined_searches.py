@@ -50,5 +50,7 @@ def continued(before: Identification, after: Identification) -> Identification:
         joined([before, after], after if after.value <= before.value else before),
         converged=ending.converged,
         message=ending.message,
+        agreement=ending.agreement,
+        reason=ending.reason,
         runs_with_curves=after.runs_with_curves,
     )

@@ -163,7 +163,8 @@ class OpenSearch:
             ledger.space.dictionary(best.point),
             best.value,
             ledger.best_simulations(),
-            *self._finish,
+            self._finish.converged,
+            self._finish.message,
             as_records(ledger.done, ledger.space.names),
         )
 
@@ -195,7 +196,7 @@ class OpenSearch:
         except StopIteration as end:
             self._end(end.value)
         except SearchEndedError as end:
-            self._end(Finish(False, str(end)))
+            self._end(Finish(False, str(end), reason=str(end)))
             self._course.close()
 
     def _end(self, finish: Finish) -> None:

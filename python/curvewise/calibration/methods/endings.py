@@ -35,7 +35,13 @@ def judged_end(finish: Finish, ledger: Ledger, simulations: Any) -> Finish:
     tests = sampling_of_tests(ledger.objective, distances)
     if all(test.deciding == 0 for test in tests):
         return finish
-    return Finish(False, f"{finish.message}; {_of_tests(tests)}")
+    points = " and ".join(str(test.enough) for test in tests)
+    return finish._replace(
+        converged=False,
+        message=f"{finish.message}; {_of_tests(tests)}",
+        reason="the points of the test are so far apart that they decide which fit is best; "
+        f"compare by another measure, or resample the test evenly to {points} points",
+    )
 
 
 def _of_tests(tests: list[Sampling]) -> str:
@@ -66,4 +72,9 @@ def _within_bounds(finish: Finish, ledger: Ledger) -> Finish:
     ]
     if not stopped:
         return finish
-    return Finish(False, f"{', '.join(stopped)}: widen it if it is not meant ({finish.message})")
+    held = ", ".join(stopped)
+    return finish._replace(
+        converged=False,
+        message=f"{held}: widen it if it is not meant ({finish.message})",
+        reason=f"{held}, and a better fit may lie beyond; give wider bounds",
+    )

@@ -102,7 +102,7 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
         if cma is None:
             evolution = DifferentialEvolution(tol=1e-4)
             finish = yield from evolution.course(ledger, start, seed)
-            return Finish(finish.converged, f"{_WITHOUT}{finish.message}")
+            return finish._replace(message=f"{_WITHOUT}{finish.message}")
         random = np.random.default_rng(seed)
         ends: list[float] = []
         for number in range(self.rounds):
@@ -113,7 +113,8 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
                 return Finish(
                     True, f"CMA-ES: {good} of {len(ends)} rounds within {100 * self.tol:g} %"
                 )
-        return Finish(False, f"CMA-ES: the best of {self.rounds} rounds was found only once")
+        reason = f"the best of {self.rounds} rounds was found only once"
+        return Finish(False, f"CMA-ES: {reason}", reason=reason)
 
     def _enough(self, ledger: Ledger, value: float) -> float:
         """Return the largest difference between values that count as equal."""

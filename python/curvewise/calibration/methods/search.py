@@ -79,7 +79,7 @@ def run_search(problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()) -
             try:
                 finish = evaluations.driven(plan.method.staged(evaluations, start, plan.seed))
             except SearchEndedError as end:
-                finish = Finish(False, str(end))
+                finish = Finish(False, str(end), reason=str(end))
             evaluations.show()
         simulations = evaluations.best_simulations()
     finish = judged_end(finish, evaluations, simulations)

@@ -19,6 +19,7 @@ import numpy as np
 
 from ...curves.inputs import Array
 from ..problem.ledger import Finish
+from ..records.search_record import Agreement
 
 __all__ = [
     "NOISIEST",
@@ -26,6 +27,7 @@ __all__ = [
     "are_alike",
     "check_regions",
     "finish_of",
+    "has_arrived",
     "is_enough",
     "is_flat",
     "nothing_beside",
@@ -44,7 +46,10 @@ NOISIEST = 0.05  # and by this one where the model's own noise moves values so f
 _PERFECT = 1e3
 _SAME_PLACE = 0.01  # of the bounds' range
 _MAYBE = "the start is a minimum already, or "
-_TRY = 'is flat or stepped here; try another method ("global"), measure or start ('
+_TRY = 'is flat or stepped here; try another method ("global"), measure or start '
+_UNFINISHED = (
+    "the best start ended before its steps had become small; give closer bounds, or another seed"
+)
 
 
 class End(NamedTuple):
@@ -109,18 +114,32 @@ def are_alike(ends: Sequence[End], negligible: float, among: Sequence[End]) -> i
 
 
 def is_enough(ends: Sequence[End], negligible: float, starts: int) -> bool:
-    """Return whether enough independent starts agree on the best value.
+    """Return whether enough independent starts agree, so that no more are needed.
 
     `starts` of them suffice if all agree. If some have ended higher, one more must agree, and at
     least half of all.
-
-    `starts` of them where all agree; where some have ended higher, one more and half of all.
     """
     telling = [end for end in ends if end.tells]
     alike = are_alike(ends, negligible, telling)
-    if alike == len(telling):
-        return alike >= starts
-    return alike > starts and 2 * alike >= len(telling)
+    return _agree(ends, negligible, starts) and 2 * alike >= len(telling)
+
+
+def has_arrived(ends: Sequence[End], negligible: float, starts: int) -> bool:
+    """Return whether enough independent starts agree for the best of all that have been made.
+
+    As many as have to agree by default, or `starts` if that is less; one more where some have ended
+    higher. A lower minimum that attracts as many of n starts as the k that agree would have been
+    missed by all of them with a probability of (1 - k / n)^n < exp(-k): 2 % for k = 4, whatever n
+    is.
+    """
+    return _agree(ends, negligible, min(starts, starts_that_agree(None, ends[0].place.size)))
+
+
+def _agree(ends: Sequence[End], negligible: float, starts: int) -> bool:
+    """Return whether so many independent starts agree, or one more where some ended higher."""
+    telling = [end for end in ends if end.tells]
+    alike = are_alike(ends, negligible, telling)
+    return alike >= starts if alike == len(telling) else alike > starts
 
 
 def starts_that_agree(starts: int | None, parameters: int) -> int:
@@ -169,20 +188,64 @@ def finish_of(ends: Sequence[End], negligible: float, starts: int) -> Finish:
         Number of starts that must agree; 1 if a start was given.
     """
     best = min(ends, key=lambda end: end.value)
-    converged, message = best.finish
+    converged, message = best.finish.converged, best.finish.message
     telling = [end for end in ends if end.is_independent]
-    alike = are_alike(ends, negligible, telling)
+    agreement = _agreement(ends, negligible)
     if len(ends) > 1:
-        others = "" if alike == len(telling) else f", others{_above(telling, best.value)}"
-        message = f"{alike} of {len(telling)} starts within 1 % of the best{others}; {message}"
+        others = ""
+        if agreement.agree < agreement.starts:
+            others = f", others{_above(telling, best.value)}"
+        message = (
+            f"{agreement.agree} of {agreement.starts} starts within 1 % of the best{others}; "
+            f"{message}"
+        )
+    if obstacle := _obstacle(ends, best, negligible):
+        before, reason = obstacle
+        return Finish(False, f"{before}({message})", agreement, reason)
+    if converged and has_arrived(ends, negligible, starts):
+        return Finish(True, message, agreement)
+    return Finish(False, message, agreement, _too_few(agreement) if converged else _UNFINISHED)
+
+
+def _agreement(ends: Sequence[End], negligible: float) -> Agreement:
+    """Return how many of the independent starts agree, and within what."""
+    best = min(end.value for end in ends)
+    alike = [end for end in ends if end.tells and are_alike(ends, negligible, [end])]
+    starts = sum(end.is_independent for end in ends)
+    if best <= _nothing(ends, negligible) or not alike:
+        return Agreement(len(alike), starts, 0.0)
+    return Agreement(len(alike), starts, max(end.value for end in alike) / best - 1.0)
+
+
+def _obstacle(ends: Sequence[End], best: End, negligible: float) -> tuple[str, str] | None:
+    """Return why agreement says nothing here, for those who know the method and for others."""
     if is_flat(ends, negligible):
-        return Finish(False, f"several places have the best value: the measure {_TRY}{message})")
+        return (
+            f"several places have the best value: the measure {_TRY}",
+            "several places have the same best value, since the measure does not tell them apart; "
+            "compare by another measure",
+        )
     if best.value == best.first and best.value > _nothing(ends, negligible):
-        return Finish(False, f"no step gained anything: {_MAYBE}the measure {_TRY}{message})")
+        return (
+            f"no step gained anything: {_MAYBE}the measure {_TRY}",
+            "no start found a better fit than it began with; compare by another measure",
+        )
     if any(end.is_misled for end in ends):
-        message = f"the surrogate of curves misleads, and steps went by the value alone ({message})"
-        return Finish(False, message)
-    return Finish(converged and is_enough(ends, negligible, starts), message)
+        return (
+            "the surrogate of curves misleads, and steps went by the value alone ",
+            "the model's curves jump from run to run; refine its steps, or search by another "
+            "method",
+        )
+    return None
+
+
+def _too_few(agreement: Agreement) -> str:
+    """Say that too few starts agree."""
+    agree, starts, _ = agreement
+    if starts == 1:
+        return ""
+    only = f"only {agree} of {starts} starts agree" if agree > 1 else "no two starts agree"
+    return f"{only}; give closer bounds, or another seed"
 
 
 def nothing_beside(first: float) -> float:

@@ -20,6 +20,7 @@ from ...curves.several_curves import as_points, curve_list
 from ..models.pool import Outcome
 from ..objective.first_run import warn_of_first_run
 from ..records.evaluation import Evaluation, Point, is_outside
+from ..records.search_record import Agreement
 from ..surfaces.nearby_runs import Run
 from .problem import Problem
 
@@ -31,10 +32,23 @@ _log = logging.getLogger("curvewise.calibration")
 
 
 class Finish(NamedTuple):
-    """The ending of a search, or of one of its stages."""
+    """The ending of a search, or of one of its stages.
+
+    Attributes
+    ----------
+    converged : bool
+    message : str
+        What the method says of it.
+    agreement : Agreement, optional
+        How many starts agree, of a search from several.
+    reason : str, default ""
+        Why it has not converged, and what to do, for readers who do not know the method.
+    """
 
     converged: bool
     message: str
+    agreement: Agreement | None = None
+    reason: str = ""
 
 
 class SearchEndedError(Exception):

@@ -13,16 +13,47 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...curves.inputs import Array
 from .evaluation import Evaluation
 
-__all__ = ["Ending", "SearchRecord", "as_json", "curves_of", "text_of"]
+__all__ = ["Agreement", "Doubt", "Ending", "SearchRecord", "as_json", "curves_of", "text_of"]
 
 _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
+
+
+class Agreement(NamedTuple):
+    """How many starts of a search have ended at the best value.
+
+    Attributes
+    ----------
+    agree, starts : int
+        How many of how many independent starts.
+    within : float
+        How far the highest of those that agree is above the best, as a fraction of it; 0 for
+        perfect fits.
+    """
+
+    agree: int
+    starts: int
+    within: float
+
+
+class Doubt(NamedTuple):
+    """Parameters that are not to be used, whatever their intervals are.
+
+    Attributes
+    ----------
+    names : tuple of str
+    sentence : str
+        Why, and what would determine them.
+    """
+
+    names: tuple[str, ...]
+    sentence: str
 
 
 @dataclass(frozen=True)
@@ -42,7 +73,11 @@ class Ending:
         the search has left too few runs near the optimum.
     uncertainty : dict, or None
         The figures of a computed :class:`Uncertainty`, see
-        :func:`curvewise.calibration.report.figures_of_uncertainty`.
+        :func:`curvewise.calibration.report.uncertainty_summary.summary_of`.
+    agreement, reason
+        As those of a :class:`curvewise.calibration.problem.ledger.Finish`.
+    doubts : tuple of Doubt
+        Parameters that are not to be used, by those who know the model and the tests.
     """
 
     converged: bool
@@ -55,6 +90,9 @@ class Ending:
     unit: Array | None = None
     slopes: Array | None = None
     uncertainty: dict[str, Any] | None = None
+    agreement: Agreement | None = None
+    reason: str = ""
+    doubts: tuple[Doubt, ...] = ()
 
     def to_json(self) -> str:
         """Return the ending as a line of JSON."""
@@ -73,6 +111,10 @@ class Ending:
         for name in ("unit", "slopes"):
             if plain[name] is not None:
                 (plain[name],) = curves_of(plain[name])
+        if agreement := plain.get("agreement"):
+            plain["agreement"] = Agreement(*agreement)
+        doubts = plain.get("doubts", ())
+        plain["doubts"] = tuple(Doubt(tuple(names), sentence) for names, sentence in doubts)
         return cls(**plain)
 
 

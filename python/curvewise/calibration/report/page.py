@@ -18,12 +18,13 @@ from importlib import import_module, resources
 from pathlib import Path
 
 from ..._extras import extra
+from ...showing.result import paragraph
 from ..records.search_record import SearchRecord
 from .figures import Figure
 from .notes import Note, note_section
 from .sections import most_points, overview, sections_of
 from .shown_search import ShownSearch
-from .verdict import footnote, verdict
+from .verdict import verdict_of
 
 __all__ = ["page", "write_report"]
 
@@ -99,13 +100,26 @@ def _section(
     links = [f'<a href="#{prefix}-{i}">{title}</a>' for i, (title, _) in sections]
     parts = [
         f'<section id="{prefix}"><h2>{html.escape(heading)}</h2>',
-        verdict(search),
+        verdict_of(search).html(),
         f"<nav>{' · '.join(links)}</nav>",
         *(f'<h3 id="{prefix}-{i}">{title}</h3>\n{content}' for i, (title, content) in sections),
-        footnote(search),
+        _footnote(search),
         "</section>",
     ]
     return "\n".join(parts)
+
+
+def _footnote(search: ShownSearch) -> str:
+    """Return how many sets were evaluated, and the last words of the method, as HTML."""
+    record = search.record
+    outside, count = sum(one.outside for one in record.evaluations), len(record.evaluations)
+    failed = sum(one.failed for one in record.evaluations) - outside
+    said = f"{count} evaluations" + (f", of which {failed} failed." if failed else ".")
+    if outside:
+        said += f" {outside} were outside of the model's own bounds."
+    if record.ending is not None:
+        said += f" The last words of {record.settings['method']}: {record.ending.message}."
+    return paragraph(said).replace("<p>", '<p class="footnote">')
 
 
 def _asset(name: str) -> str:

@@ -34,6 +34,8 @@ class Loop:
         At the optimum.
     y : int
         The column whose differences are residuals.
+    at_same_x : bool
+        Whether its measure, "sum_of_squares", compares y at the same x.
     """
 
     title: str
@@ -42,6 +44,7 @@ class Loop:
     test: Array = field(repr=False)
     simulation: Any = field(repr=False)
     y: int
+    at_same_x: bool = True
 
     @property
     def has_number(self) -> bool:
@@ -55,8 +58,8 @@ class Loop:
 
     @cached_property
     def branches(self) -> list[Branch]:
-        """The branches with their residuals; none without a simulated curve."""
-        if self.simulation is None or len(self.test) < 2:
+        """The branches with their residuals; none without a simulated curve of finite numbers."""
+        if self.simulation is None or len(self.test) < 2 or not np.isfinite(self.simulation).all():
             return []
         return branches_of(self.test, self.simulation, self.y)
 
@@ -92,7 +95,15 @@ class ShownSearch:
         named = [
             any(not re.fullmatch(r"column \d+", n) for n in names) for names in details["named"]
         ]
-        columns = (details["titles"], details["axes"], named, tests, simulated, details["y"])
+        cases = record.settings["cases"]
+        criteria = (
+            [record.settings] * len(tests) if cases is None else [c["criterion"] for c in cases]
+        )
+        at_same_x = [criterion["measure"] == "sum_of_squares" for criterion in criteria]
+        columns = (
+            *(details["titles"], details["axes"], named),
+            *(tests, simulated, details["y"], at_same_x),
+        )
         self.loops = [Loop(*one) for one in zip(*columns, strict=True)]
 
     @property

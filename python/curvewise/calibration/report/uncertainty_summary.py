@@ -52,8 +52,8 @@ def summary_of_record(record: SearchRecord) -> tuple[dict[str, Any] | None, str]
         return ending.uncertainty, ""
     if ending.unit is None or ending.slopes is None:
         return None, (
-            "Intervals would take runs of the model: the search has left too few near the optimum. "
-            "Call found.uncertainty(), which makes them, and then found.report(...)."
+            f"Intervals take {2 * len(record.names)} more runs of the model, since the search has "
+            "left too few near the optimum: found.uncertainty() makes them."
         )
     if record.details["has_function"]:
         return None, (
@@ -61,7 +61,10 @@ def summary_of_record(record: SearchRecord) -> tuple[dict[str, Any] | None, str]
             "computes the intervals, and writes them down."
         )
     optimum = _optimum(record, ending.simulations, ending.unit, ending.slopes)
-    found = uncertainty_of(optimum, sigma=None, level=0.95, samples=0, seed=0, runs=0)
+    try:
+        found = uncertainty_of(optimum, sigma=None, level=0.95, samples=0, seed=0, runs=0)
+    except ValueError as error:  # fewer points than parameters
+        return None, f"There are no intervals: {error}."
     return summary_of(found), ""
 
 

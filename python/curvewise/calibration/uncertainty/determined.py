@@ -10,15 +10,13 @@ estimate.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import NamedTuple
 
 from ..problem.space import Space
-from ..problem.tables import per_cent
 from .noise import noise_of
 from .sensitivity import Optimum
 from .spread import linear_spread
 
-__all__ = ["THE_RULE", "Verdict", "determined", "verdict_on"]
+__all__ = ["THE_RULE", "determined", "determined_by_linear_theory"]
 
 _OF_VALUE, _OF_RANGE, _SMALL = 0.25, 0.25, 0.02
 
@@ -49,39 +47,8 @@ def _most(space: Space, name: str, size: float) -> float:
     return min(max(_OF_VALUE * size, _SMALL * (high - low)), _OF_RANGE * (high - low))
 
 
-class Verdict(NamedTuple):
-    """The determined parameters, as far as is known without a bootstrap.
-
-    Attributes
-    ----------
-    determined : dict of str to bool
-    loose : str
-        The other parameters that are not at a bound, with half their intervals in per cent. Empty
-        if all are determined or at bounds.
-    """
-
-    determined: dict[str, bool]
-    loose: str
-
-
-def verdict_on(optimum: Optimum) -> Verdict:
+def determined_by_linear_theory(optimum: Optimum) -> dict[str, bool]:
     """Return which parameters are determined, by the intervals of the linear theory."""
     space = optimum.problem.space
     halves = linear_spread(optimum, noise_of(optimum, None), 0.95).halves
-    parameters = space.dictionary(space.point(optimum.unit))
-    good = determined(space, parameters, halves)
-    at_bounds = space.at_bounds(parameters)
-    loose = [
-        f"{name} ± {_share(space, name, parameters[name], half)}"
-        for name, half in zip(space.names, halves, strict=True)
-        if not good[name] and name not in at_bounds
-    ]
-    return Verdict(good, ", ".join(loose))
-
-
-def _share(space: Space, name: str, value: float, change: float) -> str:
-    """Return a change in per cent of the limiting quantity."""
-    if change > _OF_VALUE * abs(value) > 0.0:
-        return f"{per_cent(change, value)} %"
-    low, high = space.bounds[name]
-    return f"{per_cent(change, high - low)} % of its range"
+    return determined(space, space.dictionary(space.point(optimum.unit)), halves)

@@ -19,7 +19,14 @@ from ...curves.inputs import Array
 from ..objective.objective import Objective
 from .fitted_points import fitted_points, matched_places, reach_of
 
-__all__ = ["Directions", "at_places", "directions_along", "directions_of", "fitted_tests"]
+__all__ = [
+    "Directions",
+    "at_places",
+    "directions_along",
+    "directions_of",
+    "feet_of",
+    "fitted_tests",
+]
 
 Places: TypeAlias = npt.NDArray[np.intp]
 
@@ -102,7 +109,7 @@ def fitted_tests(
             yield points, directions, directions.across(test - points), None
         else:
             places = matched_places(test, curve)
-            feet = _feet(test / scale, curve / scale, places)
+            feet = feet_of(test / scale, curve / scale, places)
             directions = directions_of(objective, index, curve, feet)
             residuals = directions.across(test - at_places(curve, feet))
             yield at_places(curve, places), directions, residuals, _pairs(test, curve, places)
@@ -137,7 +144,7 @@ def _along_y(objective: Objective, index: int, count: int) -> Directions:
     return Directions(unit, np.ones(unit.shape[1]))
 
 
-def _feet(P: Array, Q: Array, places: Array) -> Array:
+def feet_of(P: Array, Q: Array, places: Array) -> Array:
     """Return the places of the points of Q nearest to those of P, downhill from places along Q."""
     step = np.minimum(places.astype(np.intp), len(Q) - 2)
     squares, fractions = _projected(P, Q, step)

@@ -149,14 +149,19 @@ class Uncertainty(Result):
         table = parameter_table(space, searched, spread=vars(self), with_bounds=False)
         noise = ", ".join(f"{sigma:.3g}" for sigma in self.sigma)
         how = f"{self.samples} draws of it" if self.samples else "sensitivities"
-        lines = [f"measure {self.measure}, noise {noise}, by {how}, {self.runs} runs of the model"]
+        lines = [
+            f"measure {self.measure}, standard deviation {noise} of the residuals, by {how}, "
+            f"{self.runs} runs of the model"
+        ]
         if self.is_rough:
             lines.append(
                 f"of {self.measure} sensitivities are a rough guide: samples=1000 draws the noise"
             )
         undetermined = [name for name, good in self.determined.items() if not good]
         lines.append(
-            f"not determined: {', '.join(undetermined)}" if undetermined else "all are determined"
+            f"not determined: {', '.join(undetermined)}"
+            if undetermined
+            else "by these intervals all are determined"
         )
         if self.at_limits:
             lines.append(

@@ -8,12 +8,15 @@ where it can be written so, and a rounded one, named in a comment, where it cann
 from __future__ import annotations
 
 import re
+import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...curves.inputs import Array
 
 __all__ = ["CardContent", "CardFormat", "SolverCard", "TabulatedLayer", "as_field"]
+
+_LINE = 100  # characters of a comment
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,8 @@ class CardContent:
         Paths of strain on which the card shall follow the material.
     stress : callable
         The material's stress along a path of strain.
+    verdict : sequence of str
+        Lines of the comments: how far the model is from the tests, and which numbers to use.
     """
 
     model: str
@@ -61,6 +66,7 @@ class CardContent:
     undetermined: frozenset[str]
     along: Sequence[Array]
     stress: Callable[[Array], Array]
+    verdict: Sequence[str] = ()
 
     @property
     def backstresses(self) -> list[tuple[float, float]]:
@@ -173,6 +179,9 @@ class CardFormat:
             f"{content.described}, fitted {content.date}",
             f"source: {self.sources[content.model]}",
         ]
+        for line in content.verdict:  # in ASCII; with a bar, for those who read the lines below
+            text = line.replace("±", "+-")
+            lines += textwrap.wrap(text, _LINE, initial_indent="| ", subsequent_indent="|   ")
         for name, value in content.parameters.items():
             interval = content.intervals.get(name)
             within = f" ({interval[0]!r} to {interval[1]!r})" if interval else ""
