@@ -48,12 +48,24 @@ def test_the_environment_is_added_to(tmp_path: Path) -> None:
     [
         ({"command": "ccx -i deck"}, ValueError, "give a list"),
         ({"command": []}, ValueError, "give a list"),
-        ({"command": ["no-such-solver"]}, FileNotFoundError, "no program 'no-such-solver'"),
+        (
+            {"command": ["no-such-solver"]},
+            FileNotFoundError,
+            "program 'no-such-solver' does not exist",
+        ),
         ({"timeout": 0}, ValueError, "positive number of seconds"),
         ({"timeout": float("nan")}, ValueError, "positive number of seconds"),
         ({"parameters": "E"}, ValueError, "give a list of names"),
-        ({"scratch": "no-such-folder"}, FileNotFoundError, "no folder 'no-such-folder'"),
-        ({"template_files": "no-such-deck"}, FileNotFoundError, "no template 'no-such-deck'"),
+        (
+            {"scratch": "no-such-folder"},
+            FileNotFoundError,
+            "folder 'no-such-folder' does not exist",
+        ),
+        (
+            {"template_files": "no-such-deck"},
+            FileNotFoundError,
+            "template 'no-such-deck' does not exist",
+        ),
         ({"template_files": ["deck.inp", "deck.inp"]}, ValueError, "two templates"),
         ({"template_files": ["command.log"]}, ValueError, "as the log is"),
     ],

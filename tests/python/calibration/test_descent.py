@@ -73,11 +73,11 @@ class Scripted(Descent):
         return Finish(True, f"{promised:g} {least:g}")
 
 
-def finish_of(search: Scripted) -> Finish:
+def finish_of(search: Scripted) -> tuple[bool, str]:
     with pytest.raises(StopIteration) as end:
         next(search._descended())
     finish: Finish = end.value.value
-    return finish
+    return finish.converged, finish.message
 
 
 @pytest.mark.parametrize(
@@ -109,13 +109,13 @@ def test_the_region_is_never_more_than_the_bounds():
 def test_a_region_below_tol_ends_it_once_all_is_known():
     """A geometry-improving step makes the region five times the sampled size, at most 0.02."""
     search = Scripted([-1.0] * 3, replace(RULES, tol=0.1), unknown=1)
-    assert finish_of(search).converged
+    assert finish_of(search)[0]
     assert search.radii == pytest.approx([0.2, 0.08, 0.1, 0.04])
 
 
 def test_a_search_that_hops_to_another_minimum_goes_on():
     search = Scripted([], replace(RULES, first_radius=0.05), hops=1)
-    assert finish_of(search).converged
+    assert finish_of(search)[0]
     assert search.radii == [0.05, 0.15]
     assert search.hops == -1
 
@@ -212,7 +212,7 @@ def test_where_runs_fail_it_goes_on_and_looks_on_the_other_side():
 def test_steps_that_fail_again_and_again_go_on_by_the_value() -> None:
     search = Scripted([-1.0] * 7)
     radii = search.radii
-    assert finish_of(search).converged
+    assert finish_of(search)[0]
     assert radii[5] == pytest.approx(RULES.first_radius / 2.0)  # trusted again after five
     assert search._by_value
 
