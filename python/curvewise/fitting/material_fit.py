@@ -1,8 +1,8 @@
-"""A material fitted to tests, without a solver: bounds read off them, a search, intervals, files.
+"""Fit of a material to tests without a solver: bounds, search, intervals, files.
 
-Each test is thinned to some hundred points, its turns among them, and drives the point of material
-(`curvewise.materials`), whose exact slopes the search uses. Seconds for one core; what it costs is
-the search of `curvewise.calibration.identify`.
+Each test is thinned to some hundred points, including its reversals, and drives the material-point
+model (`curvewise.materials`). The search uses the model's exact derivatives. It takes seconds on
+one core; the cost is that of `curvewise.calibration.identify`.
 """
 
 from __future__ import annotations
@@ -53,24 +53,24 @@ class MaterialFit(CardsOfFit):
     model : DrivenModel
         The material, driven by the tests.
     tests : tuple of ndarray
-        As they were compared: strain and stress, thinned.
+        The compared tests: strain and stress, thinned.
     found : Identification
-        What the search ended with. If bounds were widened, it is the search in the widest, with
-        the history, the failures and the runs of all searches.
+        The result of the search. If bounds were widened, it is the search in the widest, with the
+        history, the failures and the runs of all searches.
     uncertainty : Uncertainty or None
-        None where it was not asked for, by a study.
+        None if a study did not request it.
     modulus_read : float
-        The slope with which the tests unload, or that of first loading where none unloads.
+        The slope of unloading of the tests, or that of the first loading if the tests never unload.
     units : str
-        Of the stresses.
+        The unit of the stresses.
     beyond : Beyond, optional
-        The parameters at bounds that were read off the tests, and what wider ones would gain.
+        The parameters that ended at bounds derived from the tests, and the gain of wider ones.
     beginning : str, default ""
-        Sentences about tests that begin a little beside zero strain and stress.
+        Sentences about tests that begin slightly off zero strain and stress.
     prepared : tuple of PreparedTest
-        Those of the tests that `prepare` has made, with what it did.
+        The tests that `prepare` has made, with its steps.
     cycles : {"all", "last"}
-        Which cycles were compared.
+        The compared cycles.
     """
 
     model: DrivenModel = field(repr=False)
@@ -123,19 +123,19 @@ class MaterialFit(CardsOfFit):
         return self.found.evaluations
 
     def write(self, folder: str | os.PathLike[str], *, names: Sequence[str] = ()) -> list[Path]:
-        """Write parameters.csv, report.html and fit.png into a folder, which is made.
+        """Write parameters.csv, report.html and fit.png into a new or existing folder.
 
         Parameters
         ----------
         folder : path-like
-            For the files; those of an earlier fit are replaced.
+            The folder for the files; those of an earlier fit are replaced.
         names : sequence of str, optional
-            What the tests are called.
+            The names of the tests.
 
         Returns
         -------
         list of Path
-            What was written.
+            The written files.
         """
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
@@ -193,65 +193,66 @@ def fit_material(
     ----------
     tests : array_like of shape (n, 2), or sequence of such
         Strain [-] and stress of each test, from zero strain and stress on: loops, single tension
-        tests, raw records of a machine; what :func:`prepare` makes of one.
+        tests, raw records of a machine, or results of :func:`prepare`.
     material : Material
-        Such as ``ChabocheVoce(backstresses=2)``.
+        The material, such as ``ChabocheVoce(backstresses=2)``.
     measure : str, default "sum_of_squares"
-        What is minimised: any measure that `identify` takes. The simulated stress is at the
-        strains of the test, so that squares of its difference apply.
+        The measure to minimise, as for `identify`. The simulated stress is at the strains of the
+        test, so that squares of its difference apply.
     fixed : mapping of str to float, optional
-        Parameters that are known and not searched for, such as ``{"E": 206e3}``.
+        Known parameters, which are not searched for, such as ``{"E": 206e3}``.
     bounds : mapping, optional
-        Bounds of some parameters or of all, as for `identify`. All others have those that
-        ``material.bounds_from(tests)`` reads off the tests, and wider ones where a parameter ends
-        at one of these; bounds that are given are kept.
+        Bounds of some parameters or of all, as for `identify`. The others have those that
+        ``material.bounds_from(tests)`` derives from the tests, and wider ones if a parameter ends
+        at such a bound. Given bounds are kept.
     cycles : {"all", "last"}
-        "last": of each test its last complete cycle alone is compared
-        (:func:`curvewise.curves.last_cycle`), the stabilised one of a test of many; the material
-        has gone through all the history before it.
+        "last" compares only the last complete cycle of each test
+        (:func:`curvewise.curves.last_cycle`), the stabilised one of many cycles. The material still
+        undergoes the whole history before it.
     points : int, default 300
-        About how many points of each test are compared; tests that have fewer stay as they are.
-        A test with more rows, whose noise in strain exceeds its step from row to row, is averaged
-        over short blocks of rows first, and its reversals are found from both sides.
+        Approximate number of compared points of each test; shorter tests are unchanged. If the
+        noise in strain of a longer test exceeds its step from row to row, the test is averaged over
+        short blocks of rows first, and its reversals are located from both sides.
     seed : int, default 0
-        Of the search.
+        Seed of the search.
     max_runs : int, optional
-        The most parameter sets to try; those in wider bounds are among them.
+        Maximum number of parameter sets, including those in wider bounds.
     units : str, default "MPa"
-        Of the stresses, for axes, tables and cards; nothing is converted.
+        Unit of the stresses, for axes, tables and cards; nothing is converted.
     progress : bool, default True
-        Show a bar (tqdm).
+        Whether to show a bar (tqdm).
     missing : {"refuse", "skip"}, default "refuse"
-        Whether points with a nan are refused, or take no part; a warning then says how many.
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------
     MaterialFit
-        The parameters, their intervals, and what writes them down.
+        The parameters, their intervals, and methods that write them.
 
     Raises
     ------
     ValueError
-        A test is none of strain and stress, has strains in per cent, is elastic, or has no
-        complete cycle for ``cycles="last"``; `fixed` or `bounds` has a name that is no parameter,
-        a modulus or a yield stress in another unit than the tests, or leaves no parameter that
-        moves the stress.
+        If a test does not hold strain and stress, has strains in per cent, is elastic, or lacks a
+        complete cycle for ``cycles="last"``. If a name in `fixed` or `bounds` is not a parameter,
+        or a modulus or yield stress is in another unit than the tests. If no remaining parameter
+        changes the stress.
     ImportError
-        scipy or tqdm is missing: ``pip install "curvewise[calibration]"``.
+        If scipy or tqdm is missing: ``pip install "curvewise[calibration]"``.
 
     Warns
     -----
     BeginningWarning
-        With ``cycles="all"``: a test does not begin at zero strain and stress, or begins with a toe
-        (:func:`curvewise.curves.shift_to_origin` corrects both). The fit then often ends with a
+        With ``cycles="all"``: if a test does not begin at zero strain and stress, or begins with a
+        toe (:func:`curvewise.curves.shift_to_origin` corrects both). The fit then often ends with a
         yield stress near 0.
     UnitsWarning
-        A test seems to have other units: by the names of its columns, or by a modulus outside
-        1 to 1,000 GPa in `units`.
+        If a test seems to have other units: by the names of its columns, or by a modulus outside 1
+        to 1,000 GPa in `units`.
 
     Notes
     -----
-    Seconds. What the tests do not determine is said, and is not to be used beyond their strains.
+    A fit takes seconds. It reports undetermined parameters; do not use these beyond the strains of
+    the tests.
 
     Examples
     --------

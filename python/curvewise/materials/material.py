@@ -38,11 +38,11 @@ class Parameter(NamedTuple):
     Attributes
     ----------
     name : str
-        As in the dict of parameters.
+        The name in the dict of parameters.
     unit : str
-        "stress", the unit that the stresses are to have, or "-".
+        "stress", the unit of the stresses, or "-".
     meaning : str
-        What it is, in words.
+        The meaning.
     """
 
     name: str
@@ -106,31 +106,31 @@ class Material(ABC):
         -------
         stress : ndarray, shape (n,)
         slopes : ndarray, shape (n, k)
-            In the order of `names`.
+            The bounds, in the order of `names`.
         """
         stress, slopes = self._call(strain, parameters, True)
         return stress, slopes
 
     def driven_by(self, experiments: Any, *, parts: Sequence[Part] | None = None) -> DrivenModel:
-        """Return a model for `identify`: this material along the strains of measured loops.
+        """Return a model for `identify`: this material along the strains of loops.
 
         Parameters
         ----------
         experiments : array_like of shape (n, 2), or sequence of such
             Strain and stress of each test.
         parts : sequence of slice or ndarray of int, optional
-            For each test the points that its curve shall have, such as
-            :func:`curvewise.curves.last_cycle`; the whole test drives the material all the same.
+            For each test the points of the returned curve, such as
+            :func:`curvewise.curves.last_cycle`; the whole test drives the material in any case.
 
         Returns
         -------
         DrivenModel
-            A callable of a dict of parameters; `jacobian` has the slopes.
+            A callable of a dict of parameters; `jacobian` returns the derivatives.
 
         Raises
         ------
         ValueError
-            A test has other than two columns.
+            If a test does not have two columns.
         """
         strains = [
             strain_and_stress(experiment, f"experiments[{i}]")[:, 0].copy()
@@ -139,14 +139,13 @@ class Material(ABC):
         return DrivenModel(self, tuple(strains), None if parts is None else tuple(parts))
 
     def bounds_from(self, experiments: Any) -> Bounds:
-        """Return bounds for `identify`, laid around what the tests say by themselves.
+        """Return bounds for `identify`, derived from the tests.
 
-        Modulus, yield stress, and the stresses and plastic strains that are reached (`readings`);
-        the rest follows from these: what hardens within a hundredth of a branch or hardly at all
-        within all of the test, up to several times the stress.
-        :class:`curvewise.calibration.Log` where that is more than a decade. Wide on purpose: a
-        parameter that ends at one of them is not determined by the tests. Bounds at 0 are limits:
-        nothing lies beyond.
+        They follow from the modulus, the yield stress, and the largest stresses and plastic strains
+        (`readings`). Hardening ranges from saturation within a hundredth of a branch to barely any
+        within the whole test, up to several times the stress. Bounds of more than a decade use
+        :class:`curvewise.calibration.Log`. They are wide on purpose: the tests do not determine a
+        parameter that ends at one of them. Bounds at 0 are limits: nothing lies beyond.
 
         Parameters
         ----------
@@ -156,12 +155,12 @@ class Material(ABC):
         Returns
         -------
         dict of str to (low, high), Log or Below
-            In the order of `names`.
+            The bounds, in the order of `names`.
 
         Raises
         ------
         ValueError
-            A test has other than two columns, strains in per cent, or is elastic.
+            If a test does not have two columns, has strains in per cent, or is elastic.
         """
         readings = [
             reading_of(experiment, f"experiments[{i}]")
@@ -203,23 +202,23 @@ class Material(ABC):
         Parameters
         ----------
         parameters : mapping of str to float
-            A number for each of `names`, such as what `identify` has found.
+            A number for each of `names`, such as the result of `identify`.
         solver : {"abaqus", "ansys", "ls-dyna", "calculix", "mfront", "code_aster"}
         name : str, default "material"
-            Of the material: a letter, then letters, digits and underscores.
+            The name of the material: a letter, then letters, digits and underscores.
         units : str, default "MPa"
-            In which the stresses among the parameters are. It is written, nothing is converted.
+            The unit of the stresses among the parameters. It is written; nothing is converted.
         poisson : float, default 0.3
-            Poisson's ratio, between -1 and 0.5: uniaxial tests do not tell it.
+            Poisson's ratio, between -1 and 0.5: uniaxial tests do not determine it.
         intervals : mapping of str to (low, high), optional
-            Written beside the parameters, such as the `intervals` of an `Uncertainty`.
+            Intervals to write next to the parameters, such as the `intervals` of an `Uncertainty`.
         undetermined : collection of str, optional
             Parameters that the comments mark as NOT DETERMINED.
         date : str, optional
-            Of the fit; today's by default.
+            The date of the fit; by default today.
         along : array_like of shape (n,), or sequence of such, optional
-            Strains on which a card of "calculix" shall follow the material, such as the `strains`
-            of a `DrivenModel`; by default cycles that grow to ±3 %. No other solver needs it.
+            Strains on which a card of "calculix" must follow the material, such as the `strains` of
+            a `DrivenModel`; by default cycles that grow to ±3 %. The other solvers do not need it.
         verdict : sequence of str, optional
             Lines for the comments, such as those of `MaterialFit.verdict`.
 
@@ -227,22 +226,22 @@ class Material(ABC):
         -------
         str
             Comments with parameters, units, date, intervals and the manual's section, and the
-            solver's keywords. Numbers have the digits that give the same double when read; where a
-            field is too short for them, a comment says which were rounded.
+            solver's keywords. Numbers have the digits that give the same double when read. If a
+            field is too short for them, a comment lists the rounded ones.
 
         Raises
         ------
         ValueError
-            The solver has no such model, or none with these numbers; the message says what to do.
-            Or an argument or a parameter makes no sense.
+            If the solver does not have this model, or cannot represent these numbers; the message
+            states the remedy. If an argument or a parameter is out of its range.
         ImportError
-            CalculiX, and scipy is not installed.
+            If scipy is missing for CalculiX.
 
         Notes
         -----
-        "calculix": where a back stress has recall (gamma), the card is an overlay of several
-        elements, which follows the material along the paths `along` within the share of the loop's
-        height that it states: some 0.3 % for one loop.
+        "calculix": if a back stress has recall (gamma), the card is an overlay of several elements.
+        It follows the material along the paths `along`, within a stated fraction of the loop's
+        stress range: about 0.3 % for one loop.
 
         Examples
         --------
@@ -347,7 +346,7 @@ class DrivenModel:
         Raises
         ------
         OutsideModelError
-            The material has no stress with these parameters, such as Q below -yield.
+            If the material does not have a stress with these parameters, such as Q below -yield.
         """
         try:
             return [
@@ -359,7 +358,7 @@ class DrivenModel:
 
     @property
     def identity(self) -> str:
-        """What a store knows its runs by: material, paths, and the version that computes them."""
+        """The identity of runs in a store: material, paths, and the computing version."""
         digest = hashlib.sha256(repr(self.parts).encode())
         for path in (*self.strains, *self._indices()):
             digest.update(path.tobytes())

@@ -1,7 +1,7 @@
-"""The table [model] with a material in the place of a command: a study without a solver.
+"""The table [model] with a material instead of a command: a study without solver.
 
-The tests drive a compiled point of material, as for `fit_material`: thinned, in bounds that are
-read off them where the file gives none. Cost: linear in the tests.
+The tests drive a compiled material-point model, as in `fit_material`. They are thinned, and missing
+bounds are derived from them. Cost: linear in the tests.
 """
 
 from __future__ import annotations
@@ -104,9 +104,9 @@ def drive(
     tests: Sequence[MeasuredTest],
     given: Mapping[str, Any],
 ) -> tuple[MaterialModel, tuple[MeasuredTest, ...], dict[str, Any]]:
-    """Return the model driven by the tests, these as they are compared, and all bounds.
+    """Return the model driven by the tests, the compared tests, and all bounds.
 
-    What is wrong is noted, and raised: nothing of it can be used.
+    Errors are recorded and raised, because the result would be unusable.
     """
     material = model.made()
     for name in given:

@@ -1,7 +1,7 @@
-"""The results of a study: in memory, and as files result.json and result.csv, curves, a picture.
+"""The results of a study in memory and as files: JSON, CSV, curves, a figure.
 
-What is unknown is null in JSON, and empty in CSV. Nothing in the files depends on when or how often
-the study was interrupted.
+The files are result.json and result.csv, one file per curve, and a figure. Unknown values are null
+in JSON and empty in CSV. The files do not depend on interruptions of the study.
 """
 
 from __future__ import annotations

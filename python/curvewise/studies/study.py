@@ -1,8 +1,8 @@
-"""A study: an identification as a file describes it, ready to be checked, run and run again.
+"""A study: an identification that a file describes.
 
 `Study.read` checks the whole file; `check` runs the solver once; `run` searches. Every run of the
-solver goes into the study's store at once, so that the same call after an interruption goes on
-where it was, and ends with the same bits.
+solver is stored at once. The same call after an interruption therefore continues from the stored
+runs, and ends with bitwise identical results.
 """
 
 from __future__ import annotations
@@ -44,15 +44,15 @@ class Study(Contents):
     path : Path
         The file.
     title : str
-        What it calls itself.
+        Its title.
     tests : tuple of MeasuredTest
         The measured curves.
     models : mapping of str to SolverModel, or to MaterialModel
-        What simulates them.
+        The models of the tests.
     bounds : mapping
         The parameters, as :func:`curvewise.calibration.identify` takes them.
     search : SearchSettings
-        How to search.
+        The settings of the search.
     results : Path
         The folder for results.
 
@@ -122,18 +122,18 @@ class Study(Contents):
         return cls(**vars(contents))
 
     def check(self) -> DryRun:
-        """Run every model once, at the start of the search, and say what was read.
+        """Run every model once, at the start of the search, and report the data read.
 
         Returns
         -------
         DryRun
-            The decks, which are kept, what was read of them, the value of the measure, and how
-            long the study takes at least; prints as a table.
+            The kept decks, the data read from the results, the value of the measure, and the least
+            time of the study; prints as a table.
 
         Raises
         ------
         SolverError
-            The run failed, or its output cannot be read.
+            If a run failed, or its output cannot be read.
 
         Notes
         -----
@@ -149,12 +149,12 @@ class Study(Contents):
     def run(
         self, *, progress: bool = True, callback: Callable[[Progress], Any] | None = None
     ) -> StudyResult:
-        """Search, or go on with a search that was interrupted, and write the results.
+        """Run the search, or continue an interrupted one, and write the results.
 
         Parameters
         ----------
         progress : bool, default True
-            Show a bar (tqdm).
+            Whether to show a bar (tqdm).
         callback : callable, optional
             As for :func:`curvewise.calibration.identify`; not with several measures.
 
@@ -166,16 +166,17 @@ class Study(Contents):
         Raises
         ------
         RuntimeError
-            No run of the first batch has succeeded; the message has the first reason.
+            If no run of the first batch succeeds; the message has the first reason.
         ImportError
-            scipy, tqdm or matplotlib is missing: ``pip install "curvewise[calibration,plot]"``.
+            If scipy, tqdm or matplotlib is missing: ``pip install "curvewise[calibration,plot]"``.
         KeyboardInterrupt
-            Ctrl-C, after the solvers have been stopped. The store holds what was finished.
+            If Ctrl-C is pressed, after the solvers have been stopped. The store holds the finished
+            runs.
 
         Notes
         -----
-        The time is the solver's. Resumed with the same file, decks and program it gives the same
-        result, bit for bit.
+        The time is the solver's. A resumed study with the same file, decks and program gives
+        bitwise identical results.
 
         Examples
         --------
@@ -204,7 +205,7 @@ class Study(Contents):
     def _fit(
         self, found: Mapping[str, Identification], uncertainties: Mapping[str, Uncertainty]
     ) -> MaterialFit | None:
-        """Return what is found of a material, by one measure, as `fit_material` does."""
+        """Return the fit of a material by one measure, as `fit_material` does."""
         model = self.material
         if model is None or model.driven is None or len(found) > 1:
             return None

@@ -305,18 +305,18 @@ DAT = " displacements (vx,vy) for set A and time  {}\n\n {}\n"
         (
             read_abaqus_dat,
             ABAQUS.replace(" 3    -1", 400 * "9" + " -1"),
-            "line 33: '9{40}' is no w",
+            "line 33: '9{40}' is not",
         ),
         (read_abaqus_dat, ABAQUS.replace("-75.1", ""), "line 33: 2 words for 3 columns"),
         (
             read_ls_dyna_nodout,
             NODOUT.replace(" 71  0", 400 * "9" + "  0"),
-            "line 13: '9{40}' is no w",
+            "line 13: '9{40}' is not",
         ),
         (
             read_ls_dyna_elout,
             ELOUT.replace("12-", 400 * "9" + "-"),
-            "line 7: '9{40}' is no whole n",
+            "line 7: '9{40}' is not an integer",
         ),
     ],
 )

@@ -1,4 +1,4 @@
-"""A search, and what it has found, which is written into its store."""
+"""Runs a search and records its result in the store."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _log = logging.getLogger("curvewise.calibration")
 def identification_of(
     problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()
 ) -> Identification:
-    """Search, and return what has been found; the arguments are those of `run_search`."""
+    """Run a search and return its result; the arguments are those of `run_search`."""
     ended = run_search(problem, plan, earlier_runs)
     evaluations, objective = ended.evaluations, problem.objective
     done, best = evaluations.done, evaluations.best
@@ -52,6 +52,6 @@ def identification_of(
     if found.recorder.has_store:
         try:
             found.recorder.end(found.ending())
-        except (OSError, ValueError) as error:  # no reason to lose what was found
+        except (OSError, ValueError) as error:  # an error here must not lose the result
             _log.warning("how the search ended could not be written down: %s", error)
     return found

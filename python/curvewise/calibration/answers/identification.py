@@ -1,4 +1,4 @@
-"""What a search has found: parameters, values under every measure, and what can be asked of them.
+"""The result of a search: parameters, values under every measure, and reports.
 
 Everything here is computed from the simulations that the search has kept; only `uncertainty` may
 run the model again, and says beforehand how often.
@@ -64,9 +64,9 @@ class Identification(Result):
     history : numpy.recarray
         Every evaluation: its number, the parameters, value, failed and seconds.
     failures : tuple of (int, str)
-        Number of every evaluation that failed, and why.
+        The number of every evaluation that failed, and the reason.
     converged : bool
-        Whether the method met its tolerances, and no bound that was not meant stopped it.
+        True if the method met its tolerances and no unintended bound stopped it.
     message : str
         How the search ended, as its method says it.
     agreement : Agreement or None
@@ -75,14 +75,14 @@ class Identification(Result):
     reason : str
         Why the search has not converged, in plain words; "" where it has.
     method, seed, bounds, measure, preset, part
-        As asked for.
+        The arguments of the call.
     runs : int
-        How many runs of the model were made for it; the others were looked up.
+        Number of model runs of this search; the others were read from the store.
     problem, execution, runs_with_curves, recorder
-        What was searched, what runs the models, the runs whose curves are known, and what writes
-        the search down: for what comes after the search.
+        The problem, the runner of the models, the runs with known curves, and the record of the
+        search, for later evaluations.
     condition : Condition or None
-        Whether the measure is computed on scaled curves, and its options, the preset's included;
+        Whether the measure is computed on scaled curves, and its options, including the preset's;
         None for "sum_of_squares" and for a function.
     """
 
@@ -173,9 +173,9 @@ class Identification(Result):
 
     @property
     def uncertainty_runs(self) -> int:
-        """How many runs of the model slopes will take: 0, or 2 for every parameter.
+        """Number of model runs for derivatives: 0, or 2 for every parameter.
 
-        A model that says its slopes is run by `uncertainty` besides, some ten times a parameter.
+        `uncertainty` also runs a model with a Jacobian, about ten times for each parameter.
         """
         return design_runs(self.problem, self._unit, self.simulations, self.runs_with_curves)
 
@@ -197,46 +197,47 @@ class Identification(Result):
         samples: int = 0,
         seed: int = 0,
     ) -> Uncertainty:
-        """Say how well the tests determine the parameters.
+        """Estimate how precisely the tests determine the parameters.
 
         Parameters
         ----------
         sigma : float or sequence of float, optional
             The standard deviation of the noise in y, of all loops or of each. The noise is then
-            white, and x has none. By default the residuals are taken for the noise, in x and in y,
-            correlated as they are.
+            white, and x is exact. By default the residuals are taken as the noise, in x and in y,
+            with their correlation.
         level : float, default 0.95
             The probability of the intervals.
         samples : int, default 0
-            How many times the noise is drawn anew, at least 20 and better 1000. 0 takes the errors
-            from the sensitivities, at once: exact for sums of squares, near for "area" and "dtw",
-            and a rough guide for other measures.
+            Number of bootstrap samples of the noise, at least 20 and preferably 1000. 0 derives the
+            errors from the sensitivities, at once: exact for sums of squares, close for "area" and
+            "dtw", and a rough guide for other measures.
         seed : int, default 0
-            Of the draws.
+            Seed of the samples.
 
         Returns
         -------
         Uncertainty
-            Errors, intervals, correlations, sensitivities and what is not determined; prints as a
-            table, plots itself.
+            Errors, intervals, correlations, sensitivities and the undetermined parameters; prints
+            as a table, plots itself.
 
         Raises
         ------
         ValueError
-            A level, sigma or number of samples out of range; fewer points than parameters.
+            If the level, sigma or number of samples is out of range. If there are fewer points than
+            parameters.
 
         Notes
         -----
         Runs of the model: `uncertainty_runs`, which is 0 after "trust-region" and "sdrm". Time:
-        some 30 evaluations of the measure a parameter; with samples, as many for each of them.
-        Sensitivities take curves for linear. Of a model with a ``jacobian`` each end is therefore
-        followed along the model, in some 3 to 6 runs and at most 15, to where its curves have moved
-        as far as they would by the linear interval; an interval then need not be symmetric, and is
-        never narrower than the linear one.
-        Correlated residuals mean model error. Intervals are then those of a bootstrap-t by circular
-        shifts of the residuals, on the linearised model. If the model has no ``jacobian``,
-        intervals that are a large part of the bounds say "not determined", and no more. Sources:
-        see the modules of ``curvewise.calibration.uncertainty``.
+        about 30 evaluations of the measure for each parameter, and for each sample. Sensitivities
+        assume linear curves. For a model with a ``jacobian``, each interval end is therefore
+        computed on the nonlinear model, in about 3 to 6 runs and at most 15. The end is where its
+        curves have moved as far as at the end of the linear interval. An interval then need not be
+        symmetric, and is never narrower than the linear one. Correlated residuals indicate model
+        error. Intervals are then those of a bootstrap-t by circular shifts of the residuals, on the
+        linearised model. For a model without a ``jacobian``, intervals that are a large part of the
+        bounds only mean "not determined". Sources: see the modules of
+        ``curvewise.calibration.uncertainty``.
 
         Examples
         --------
@@ -275,37 +276,37 @@ class Identification(Result):
         uncertainty: Uncertainty | None = None,
         notes: Sequence[Note] = (),
     ) -> None:
-        """Write the identification down as one page of HTML, which opens without a network.
+        """Write a report of the identification as one HTML page.
 
-        A verdict in words, tests and simulations to zoom into, residuals by branch, convergence,
-        parameters with intervals and correlations, the weakest directions, failures, versions, and
-        the settings to repeat it. ``curvewise report store.db`` makes the same file of the store,
-        bit for bit.
+        The page opens without a network. It has a verdict in words, tests and simulations to zoom
+        into, residuals by branch, convergence, parameters with intervals and correlations, the
+        weakest directions, failures, versions, and the settings to repeat the search. ``curvewise
+        report store.db`` writes a bitwise identical file from the store.
 
         Parameters
         ----------
         path : path-like
-            The file; what is there is replaced.
+            The file; an existing file is replaced.
         uncertainty : Uncertainty, optional
-            What the page says of the parameters. By default what :meth:`uncertainty` has given
-            last; or would give, where it was not called and slopes take no runs of the model
-            (`uncertainty_runs`): if they do, the page is without intervals.
+            The uncertainty to show. The default is the last result of :meth:`uncertainty`. If that
+            has not been called, it is called, unless derivatives need runs of the model
+            (`uncertainty_runs`): then the page omits intervals.
         notes : sequence of Note
-            What the page says of the tests before the search: how they were prepared.
+            Sections on the preparation of the tests.
 
         Raises
         ------
         ImportError
-            plotly is not installed: ``pip install "curvewise[report]"``.
+            If plotly is missing: ``pip install "curvewise[report]"``.
         ValueError
-            As :meth:`uncertainty`.
+            As for :meth:`uncertainty`.
         OSError
-            The file cannot be written.
+            If the file cannot be written.
 
         Notes
         -----
-        Some 2 MB, of which plotly.js is most, and at most 5 MB: of many or long curves every k-th
-        point is drawn. Time: that of `uncertainty`, and of a warping path for every loop.
+        About 2 MB, mostly plotly.js, and at most 5 MB: every k-th point of many or long curves is
+        drawn. Time: that of `uncertainty`, and of a warping path for every loop.
 
         Examples
         --------
@@ -325,7 +326,7 @@ class Identification(Result):
         write_report(path, [self.record(uncertainty)], notes)
 
     def record(self, uncertainty: Uncertainty | None = None) -> SearchRecord:
-        """Take down what is known of the uncertainty, and return all that a report is made of.
+        """Record the uncertainty as far as it is known, and return the search's record.
 
         Parameters
         ----------
@@ -335,7 +336,7 @@ class Identification(Result):
         Raises
         ------
         OSError, ValueError
-            The store of the search cannot be written.
+            If the store of the search cannot be written.
         """
         ending = self.recorder.ending
         is_known = ending is not None and ending.uncertainty is not None
@@ -355,19 +356,19 @@ class Identification(Result):
         Raises
         ------
         OSError, ValueError
-            The store of the search cannot be written.
+            If the store of the search cannot be written.
         """
         self.recorder.end(replace(self.recorder.ending or self.ending(), doubts=tuple(doubts)))
 
     def _take_down(self, uncertainty: Uncertainty | None) -> None:
-        """Write down how the search ended, with what is known of the uncertainty."""
+        """Record how the search ended, with the known uncertainty."""
         ending = self.recorder.ending or self.ending()
         if uncertainty is not None:
             ending = replace(ending, uncertainty=summary_of(uncertainty))
         self.recorder.end(ending)
 
     def ending(self) -> Ending:
-        """Return what is written down of how the search ended, without the uncertainty."""
+        """Return the ending to record, without the uncertainty."""
         unit = slopes = None
         if self._has_surfaces:
             optimum = self._optimum()

@@ -13,15 +13,15 @@ __all__ = ["continued", "joined"]
 
 
 def joined(searches: Sequence[Identification], chosen: Identification) -> Identification:
-    """Return one of several searches with the history, the failures and the runs of all.
+    """Return one of several searches with the history, failures and runs of all.
 
     Parameters
     ----------
     searches : sequence of Identification
-        In the order in which they were made, by the same objective, for the same parameters.
-        Their bounds may differ.
+        The searches in their order, with the same objective and parameters. Their bounds may
+        differ.
     chosen : Identification
-        One of them. What it says of its optimum and of its end remains.
+        One of them. Its optimum and its ending are kept.
     """
     history = np.concatenate([one.history for one in searches])
     history["evaluation"] = np.arange(1, len(history) + 1)
@@ -44,7 +44,7 @@ def joined(searches: Sequence[Identification], chosen: Identification) -> Identi
 
 def continued(before: Identification, after: Identification) -> Identification:
     """Return a later search of the same problem as the continuation of an earlier one."""
-    # One that only confirms the value has gained nothing, which is no reason for doubt.
+    # A search that only confirms the value has gained nothing, which does not cause doubt.
     ending = before if before.converged and after.value >= before.value else after
     return replace(
         joined([before, after], after if after.value <= before.value else before),

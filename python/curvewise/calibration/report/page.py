@@ -1,8 +1,9 @@
 """The page itself: head, sections, figures as JSON, and plotly.js to draw them.
 
-plotly.js is four to five megabytes and compresses to a third. It stands in the page as gzip in
-base64, and the browser unpacks it (DecompressionStream: Chrome 80, Safari 16.4, Firefox 113 and
-later; an older one shows the tables and says why there are no figures). The page loads nothing.
+The page consists of a head, sections, figures as JSON, and plotly.js. plotly.js has four to five
+megabytes and compresses to a third. The page contains it as gzip in base64, and the browser unpacks
+it (DecompressionStream: Chrome 80, Safari 16.4, Firefox 113 and later). An older browser shows the
+tables and the reason for the missing figures. The page does not load anything.
 """
 
 from __future__ import annotations
@@ -40,18 +41,18 @@ def write_report(
     Parameters
     ----------
     path : path-like
-        The file; what is there is replaced.
+        The file; an existing file is replaced.
     records : sequence of SearchRecord
-        In the order in which the page has them.
+        The records, in the order of the page.
     notes : sequence of Note
-        What the page says of the tests before the searches.
+        The sections on the preparation of the tests.
 
     Raises
     ------
     ImportError
-        plotly is not installed.
+        If plotly is missing.
     OSError
-        The file cannot be written.
+        If the file cannot be written.
     """
     Path(path).write_text(page(records, notes), encoding="utf-8", newline="\n")
 

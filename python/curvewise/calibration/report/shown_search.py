@@ -1,4 +1,4 @@
-"""A search as a page shows it: what was written down, and what is computed of that once."""
+"""A search for display: its record, and quantities computed once from it."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class Loop:
 
 
 class ShownSearch:
-    """A search with its tests, and with what is known of its uncertainty.
+    """A search with its tests and its uncertainty.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ class ShownSearch:
     loops : list of Loop
         Its tests with their simulations at the optimum.
     summary, reason
-        What a page says of its uncertainty; None and why that is not known.
+        The summary of its uncertainty, or None and the reason.
     """
 
     def __init__(self, record: SearchRecord) -> None:
@@ -91,7 +91,7 @@ class ShownSearch:
         self.summary, self.reason = summary_of_record(record)
         details, tests = record.details, record.experiments
         simulated = [*record.curves, *[None] * (len(tests) - len(record.curves))]
-        # What a file without a header has, "column 2", is no name.
+        # The default "column 2" of a file without a header does not count as a name.
         named = [
             any(not re.fullmatch(r"column \d+", n) for n in names) for names in details["named"]
         ]
@@ -116,5 +116,5 @@ class ShownSearch:
 
     @property
     def objective(self) -> str:
-        """What is minimised, with its preset."""
+        """The minimised measure, with its preset."""
         return f"{self.record.settings['measure']} ({self.record.settings['preset']})"

@@ -1,8 +1,8 @@
-"""What a page says of an uncertainty, as numbers and texts that JSON can hold.
+"""The summary of an uncertainty in a report, as JSON numbers and texts.
 
-It is written down with the search once it has been computed. Where it has not been, it is computed
-from the record: the objective, the space and the surfaces are made again of what was written down,
-which gives the same bits. A measure that is a function of the user's cannot be made again.
+It is recorded with the search once it has been computed. Otherwise it is computed from the record:
+the objective, the space and the surfaces are rebuilt from it, with bitwise identical results. This
+is not possible if the measure is a user-defined function.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def summary_of_record(record: SearchRecord) -> tuple[dict[str, Any] | None, str]
 def _optimum(
     record: SearchRecord, simulations: tuple[Array, ...], unit: Array, slopes: Array
 ) -> Optimum:
-    """Return the optimum of a search, made again of what was written down."""
+    """Return the optimum of a search, rebuilt from its record."""
     problem = Problem(_objective(record), space_of(record))
     responses = Responses(simulations)
     base = responses.vector(simulations)

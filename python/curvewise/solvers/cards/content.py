@@ -1,8 +1,8 @@
-"""What a material card is made of, whatever the solver, and the comments at its top.
+"""The content of a material card for any solver, and its leading comments.
 
 Numbers are printed with the digits that give the same double when they are read: Python's shortest
-(repr). Solvers whose fields end after so many characters get the same double in fewer characters
-where it can be written so, and a rounded one, named in a comment, where it cannot.
+(repr). Solvers with short fields get the same double in fewer characters if possible. Otherwise
+they get a rounded one, which a comment names.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _LINE = 100  # characters of a comment
 
 @dataclass(frozen=True)
 class CardContent:
-    """A material with its numbers, and what is known of them.
+    """A material with its numbers and their uncertainty.
 
     Attributes
     ----------
@@ -32,21 +32,21 @@ class CardContent:
     options : mapping of str to object
         The material's options.
     parameters : dict of str to float
-        In the material's order.
+        The parameters, in the material's order.
     units : dict of str to str
-        Of each parameter, "-" for none.
+        The unit of each parameter, "-" for dimensionless ones.
     meanings : dict of str to str
-        Of each parameter.
+        The meaning of each parameter.
     name, date : str
-        Of the material; of the fit.
+        The name of the material; the date of the fit.
     poisson : float
-        Poisson's ratio, which no uniaxial test tells.
+        Poisson's ratio, which uniaxial tests do not determine.
     intervals : mapping of str to (low, high)
-        Of the parameters that have one.
+        The intervals of the parameters that have one.
     undetermined : frozenset of str
         Parameters that the tests do not determine.
     along : sequence of ndarray
-        Paths of strain on which the card shall follow the material.
+        Paths of strain on which the card must follow the material.
     stress : callable
         The material's stress along a path of strain.
     verdict : sequence of str
@@ -78,7 +78,7 @@ class CardContent:
 
 @dataclass(frozen=True)
 class TabulatedLayer:
-    """One material of CalculiX: an element of its own, where a card has several.
+    """One material of CalculiX, and one element, if a card has several.
 
     Attributes
     ----------
@@ -205,7 +205,7 @@ class CardFormat:
 
 
 def as_field(value: float, width: int) -> str:
-    """Return a number in at most so many characters: the same double wherever one can be written.
+    """Return a number in at most `width` characters, as the same double if possible.
 
     Parameters
     ----------
