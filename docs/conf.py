@@ -88,9 +88,9 @@ myst_enable_extensions = ["colon_fence", "dollarmath", "attrs_block"]
 myst_heading_anchors = 4
 repository_folders = {
     "cpp/examples": "docs/api/cpp_examples.rst",
-    "examples/studies": "docs/study_examples.rst",
+    "examples/studies": "docs/reference/study_examples.rst",
     "benchmarks": "docs/project/benchmarks.md",
-    "benchmarks/reproduction": "docs/paper/index.md",
+    "benchmarks/reproduction": "docs/project/paper/index.md",
     "benchmarks/speed": "docs/project/speed.md",
     "benchmarks/validation": "docs/project/validation.md",
     "conformance": "docs/project/conformance.md",

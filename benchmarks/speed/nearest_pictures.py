@@ -1,4 +1,4 @@
-"""The pictures of docs/nearest_curves.md: python benchmarks/speed/nearest_pictures.py"""
+"""The pictures of find_nearest_curves.md: python benchmarks/speed/nearest_pictures.py"""
 
 from __future__ import annotations
 

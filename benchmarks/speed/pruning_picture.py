@@ -1,4 +1,4 @@
-"""The picture of docs/performance.md: the Fréchet table of two real loops, taken apart into blocks.
+"""The picture of exact_and_fast.md: the Fréchet table of two real loops, taken apart into blocks.
 
 Beside the blocks, the corridor that bounds leave of the DTW table. Everything is computed again
 here in numpy, from boxes around runs of points and from whole tables, as the page explains it: the

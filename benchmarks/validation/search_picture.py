@@ -1,4 +1,4 @@
-"""The figure of docs/how_the_search_works.md: an objective of one parameter, and its surrogates.
+"""The figure of how_the_search_works.md: an objective of one parameter, and its surrogates.
 
     python benchmarks/validation/search_picture.py
 

@@ -1,4 +1,4 @@
-"""From two files of a test machine to what they determine: docs/worked_example.md, as it was run.
+"""From two files of a test machine to what they determine: worked_example.md, as it was run.
 
 Tension–compression tests of DP780 sheet to 3 and 6 %, a finite element of combined hardening in
 CalculiX (calculix_cube.py), seven parameters. One test, then both, by three

@@ -4,7 +4,8 @@ Where sbatch works; .ci/slurm makes a cluster of one node of any machine with De
 
     python tests/faults/cluster.py [--runs 50]
 
-The same search five times: here; by `sbatch --wait` as docs/solvers.md has it, while one running
+The same search five times: here; by `sbatch --wait` as docs/how_to/connect_a_solver.md has it,
+while one running
 job is killed and queued anew (what SLURM does where a node fails) and the node drained for a time;
 by submitit, a job for every run; by dask-jobqueue, whose jobs are workers that go on from run to
 run, while one of them is killed and queued anew; and by sbatch while jobs are cancelled, which are

@@ -29,8 +29,8 @@ def add_identify(commands: Any) -> None:
         "identify",
         help="identify the parameters of a solver's model, from a study file (TOML)",
         description="Find the parameters with which a solver's curves are most like the measured "
-        "ones, as a study file says (docs/study.md has its keys). Ctrl-C ends it; the same command "
-        "again goes on where it was.",
+        "ones, as a study file says (docs/reference/study_file.md has its keys). Ctrl-C ends it; "
+        "the same command again goes on where it was.",
     )
     command.set_defaults(run=_identify)
     command.add_argument("study", metavar="STUDY.toml", help="the study file")

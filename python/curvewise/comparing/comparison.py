@@ -212,7 +212,7 @@ def compare(
         The curves; P is the reference. Every column of an array is a coordinate. Unless `measures`
         is given, a warning is issued if one of three or more columns is time by its name, or alone
         increases from point to point in both curves. A table of three columns or more is refused if
-        their names show that they are not all coordinates (docs/inputs.md).
+        their names show that they are not all coordinates (docs/reference/accepted_inputs.md).
     preset : {"scaled", "paper", "raw"}
         "scaled": all measures on curves scaled by P's bounding box, area with spacing="matched",
         curve_length with scale="mean_abs". "paper": the conditions of the paper's Table 4 (area raw

@@ -2,7 +2,8 @@
 
 Measured curves have irregularly placed points, noise, an offset, and engineering values;
 simulations do not. Each function takes a curve of shape (n, d) with its points in the order of
-loading. docs/preparing_curves.md and docs/hysteresis_loops.md show them on tests.
+loading. docs/how_to/prepare_curves.md and docs/how_to/analyse_hysteresis_loops.md show them on
+tests.
 """
 
 from __future__ import annotations

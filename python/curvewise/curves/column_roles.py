@@ -2,8 +2,8 @@
 
 In a table of three columns or more, rarely all columns are coordinates. A logger writes time, a row
 number or a temperature next to strain and stress, and each would count as a coordinate. Such a
-table is accepted if its names show that all columns are coordinates of one point; docs/inputs.md
-has the rule. The cost is that of some comparisons of short texts.
+table is accepted if its names show that all columns are coordinates of one point;
+docs/reference/accepted_inputs.md has the rule. The cost is that of some comparisons of short texts.
 """
 
 from __future__ import annotations

@@ -3,8 +3,8 @@
 Other packages are not imported. An object is recognised by its attributes: ``__geo_interface__``
 (shapely and other packages with GeoJSON), named columns (pandas, polars, pyarrow),
 ``requires_grad`` (torch), ``__next__`` (``zip(x, y)``). Objects that numpy reads correctly are left
-to numpy. The cost is a few attribute look-ups, and nothing for arrays of float64. docs/inputs.md
-has the table.
+to numpy. The cost is a few attribute look-ups, and nothing for arrays of float64.
+docs/reference/accepted_inputs.md has the table.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Converts user input to a float64 array of one or two dimensions.
 
 Only this module handles lists, DataFrames and dtypes. foreign_curves.py recognises the objects of
-other packages; docs/inputs.md has the table. The computing code checks the numbers themselves
-(finite, long enough, matching dimensions): the C++ library for the compiled functions, numpy code
-for the reference.
+other packages; docs/reference/accepted_inputs.md has the table. The computing code checks the
+numbers themselves (finite, long enough, matching dimensions): the C++ library for the compiled
+functions, numpy code for the reference.
 """
 
 from __future__ import annotations

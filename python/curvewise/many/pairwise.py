@@ -176,7 +176,7 @@ def cdist(
     some of the curves at a time. The copies take about 100 MB at most, or four curves per thread if
     that is more. Arrays of float32 are kept in memory and computed in float64, bitwise identical to
     a float64 copy. Ctrl-C ends a call on the main thread, and all its threads, within 0.2 s;
-    docs/reliability.md lists the exceptions.
+    docs/explanation/guarantees.md lists the exceptions.
 
     Examples
     --------

@@ -2,7 +2,7 @@
 
 ``curvewise identify study.toml`` runs one from the shell, and :class:`Study` from Python. The file
 names the measured curves, the solver's command and its templates, how its output is read, the
-parameters, and how to search; docs/study.md has every key.
+parameters, and how to search; docs/reference/study_file.md has every key.
 """
 
 from .._names import names_alone

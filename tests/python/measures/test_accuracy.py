@@ -1,7 +1,7 @@
 """Plane measures against their exact values, in numbers of 2300 bits.
 
-These are computed by benchmarks/validation/accuracy.py; docs/reliability.md has its table of more
-curves, and more kinds of them.
+These are computed by benchmarks/validation/accuracy.py; docs/explanation/guarantees.md has its
+table of more curves, and more kinds of them.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Objects of other packages are curves with the same value, or rejected with the line to write.
 
-docs/inputs.md has the table of the tested objects. Packages that are not installed are skipped.
+docs/reference/accepted_inputs.md has the table of the tested objects. Packages that are not
+installed are skipped.
 Substitutes replace torch, which takes gigabytes, and cupy, which needs a graphics card: they have
 the attributes that numpy and curvewise use.
 """

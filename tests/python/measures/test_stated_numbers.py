@@ -16,7 +16,7 @@ import curvewise
 
 @pytest.mark.parametrize("exponent", [-400, -511, -525, -540, -600])
 def test_small_differences_beside_large_coordinates(exponent: int) -> None:
-    """docs/reliability.md, measures/dtw.md and frechet.md: 2^-511 and about 2^-538."""
+    """docs/explanation/guarantees.md, measures/dtw.md and frechet.md: 2^-511 and about 2^-538."""
     rng = np.random.default_rng(4)
     for measure in (curvewise.dtw, curvewise.frechet):
         for _ in range(50):
@@ -64,7 +64,7 @@ def test_what_offsets_of_pcm_may_miss() -> None:
 
 
 def test_the_ellipsoid_of_the_earth_is_within_6_parts_in_1000_of_the_sphere() -> None:
-    """docs/measures/recurrences.md: by the radii of curvature of WGS 84, north and east."""
+    """measures/step_patterns.md: by the radii of curvature of WGS 84, north and east."""
     equator, flattening = 6378137.0, 1 / 298.257223563
     square = flattening * (2 - flattening)
     up = np.radians(np.linspace(0, 90, 91))
@@ -77,7 +77,7 @@ def test_the_ellipsoid_of_the_earth_is_within_6_parts_in_1000_of_the_sphere() ->
 @pytest.mark.nightly
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
 def test_memory_of_the_gradient_of_soft_dtw() -> None:
-    """docs/gradients.md: 40 MB for curves of 10,000 points."""
+    """docs/how_to/use_gradients.md: 40 MB for curves of 10,000 points."""
     program = (
         "import numpy as np, curvewise, re\n"
         "P, Q = np.random.default_rng(1).normal(size=(2, 10000, 1)).cumsum(1)\n"

@@ -65,7 +65,7 @@ def has_code(page: Path) -> bool:
     "page", [page for page in [ROOT / "README.md", *PAGES] if has_code(page)], ids=name_of
 )
 @pytest.mark.nightly(
-    "several_tests|inverse_analysis|many_curves|solvers|reports|study|identify_a_material"
+    "several_tests|inverse_analysis|scale_out|cluster_loops|connect_a|report_results|a_study|identify_a_m"
 )
 def test_the_code_of_a_page_runs(
     page: Path,
@@ -136,7 +136,7 @@ def test_nothing_is_installed_by_name_that_is_not_there() -> None:
 
 def test_the_table_of_measures_says_what_is_symmetric() -> None:
     """Its last column, and the measures themselves with each of their options."""
-    page = (DOCS / "measures/index.md").read_text(encoding="utf-8")
+    page = (DOCS / "reference/measures/index.md").read_text(encoding="utf-8")
     table = page.partition(" | symmetric |\n")[2].partition("\n:::")[0]
     says = dict(re.findall(r"^\| \[(\w+).* \| ([^|]+) \|$", table, flags=re.MULTILINE))
     assert set(says) == set(curvewise.available_measures())
@@ -166,19 +166,20 @@ def test_the_readme_has_both_commands_of_the_set_up() -> None:
 
 def test_the_exceptions_of_ctrl_c_stand_in_one_place() -> None:
     """Each page about the speed of Ctrl-C names the list of its exceptions."""
-    for page in (ROOT / "README.md", DOCS / "many_curves.md"):
+    for page in (ROOT / "README.md", DOCS / "how_to/compute_distance_matrices.md"):
         (said,) = re.findall(
             r"Ctrl-C ends.*?\.\s", page.read_text(encoding="utf-8"), flags=re.DOTALL
         )
-        assert "reliability.md#4-interruptible" in said, page
-    assert "docs/reliability.md" in (curvewise.cdist.__doc__ or "").partition("Ctrl-C ends")[2]
+        assert "guarantees.md#4-interruptible" in said, page
+    said = (curvewise.cdist.__doc__ or "").partition("Ctrl-C ends")[2]
+    assert "docs/explanation/guarantees.md" in said
 
 
 def test_the_worked_example_shows_its_script() -> None:
     """Its code needs a solver and data, so it is compared line by line with the script that was
     run.
     """
-    page = (ROOT / "docs" / "worked_example.md").read_text(encoding="utf-8")
+    page = (DOCS / "tutorials" / "worked_example.md").read_text(encoding="utf-8")
     room = ROOT / "benchmarks" / "validation"
     files = (room / "worked_example.py", room / "results" / "worked_example.txt")
     texts = "".join(file.read_text(encoding="utf-8") for file in files)
@@ -339,5 +340,6 @@ def test_every_page_has_a_place_in_the_navigation() -> None:
             for line in "".join(block).splitlines():
                 entry = re.sub(r".*<(.*)>", r"\1", line.strip())
                 if entry and not entry.startswith(":"):
-                    named |= {*page.parent.glob(f"{entry}.md"), *page.parent.glob(f"{entry}.rst")}
+                    found = (page.parent.glob(f"{entry}.{ending}") for ending in ("md", "rst"))
+                    named |= {target.resolve() for targets in found for target in targets}
     assert sorted(name_of(page) for page in pages - named) == []

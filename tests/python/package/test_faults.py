@@ -1,6 +1,6 @@
 """No memory, full disks, damaged files and stores, ends: tests/faults, once and in small.
 
-docs/reliability.md has what the long runs of these scripts found.
+docs/explanation/guarantees.md has what the long runs of these scripts found.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ name = "STEEL"
 [parameters]
 E = 200e3
 """
-PAGE = Path(__file__).parents[3] / "docs" / "study.md"
+PAGE = Path(__file__).parents[3] / "docs" / "how_to" / "run_a_study.md"
 
 
 def write(folder: Path, text: str = STUDY, loop: np.ndarray = LOOP) -> Path:

@@ -410,7 +410,8 @@ def stopped(folder: Path, runs: int, how: signal.Signals) -> tuple[int, str]:
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLES = sorted(path.parent for path in (ROOT / "examples" / "studies").glob("*/study.toml"))
-PAGE = ROOT / "docs" / "study.md"
+GUIDE = ROOT / "docs" / "how_to" / "run_a_study.md"
+PAGE = ROOT / "docs" / "reference" / "study_file.md"
 
 
 @pytest.fixture
@@ -445,7 +446,7 @@ def test_the_examples_are_right(
 @posix
 @pytest.mark.usefixtures("solvers")
 def test_the_study_of_the_page_is_right(tmp_path: Path) -> None:
-    block, _ = re.findall(r"^```toml\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+    block, _ = re.findall(r"^```toml\n(.*?)^```$", GUIDE.read_text(), re.MULTILINE | re.DOTALL)
     folder = shutil.copytree(ROOT / "examples" / "studies" / "tension_calculix", tmp_path / "study")
     (folder / "study.toml").write_text(block)
     assert Study.read(folder / "study.toml").title == "tension test"
@@ -453,14 +454,14 @@ def test_the_study_of_the_page_is_right(tmp_path: Path) -> None:
 
 # The sections of the page, and what describes the keys that each has.
 SECTIONS = {
-    "## All keys": (StudyFile,),
-    "### `[[tests]]`": (MeasuredTest,),
-    "### `[tests.output]`": (Output, Quantity),
-    "### `[parameters]`": (SearchedParameter,),
-    "### `[model]`": (SolverModel, Success, DeckTable),
-    "### A material": (MaterialModel,),
-    "### `[search]`": (SearchSettings,),
-    "### `[results]`": (ResultsFolder,),
+    "## Top level": (StudyFile,),
+    "## `[[tests]]`": (MeasuredTest,),
+    "## `[tests.output]`": (Output, Quantity),
+    "## `[parameters]`": (SearchedParameter,),
+    "## `[model]`": (SolverModel, Success, DeckTable),
+    "## A material": (MaterialModel,),
+    "## `[search]`": (SearchSettings,),
+    "## `[results]`": (ResultsFolder,),
 }
 
 
