@@ -6,6 +6,8 @@ import importlib
 import os
 import re
 import shlex
+import subprocess
+import sys
 from collections import Counter
 from pathlib import Path
 from types import ModuleType
@@ -343,3 +345,17 @@ def test_every_page_has_a_place_in_the_navigation() -> None:
                     found = (page.parent.glob(f"{entry}.{ending}") for ending in ("md", "rst"))
                     named |= {target.resolve() for targets in found for target in targets}
     assert sorted(name_of(page) for page in pages - named) == []
+
+
+@pytest.mark.skipif(not (ROOT / ".git").exists(), reason="git lists the files")
+def test_the_prose_is_within_its_bounds() -> None:
+    """.ci/prose.py holds bounds on the sentences of pages, docstrings and comments."""
+    counted = subprocess.run(
+        [sys.executable, str(ROOT / ".ci" / "prose.py")],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert counted.returncode == 0, counted.stderr
+    rows = re.findall(r"^([\w ]+?) +(\d+) sentences", counted.stdout, flags=re.MULTILINE)
+    assert min(int(count) for _, count in rows) > 100, "a group has lost its texts"
