@@ -110,7 +110,7 @@ CURVEWISE_EXPORT Alignment dtw_path(const CurveView& P, const CurveView& Q,
 CURVEWISE_EXPORT void dtw_table(const CurveView& P, const CurveView& Q, double* out,
                                 const DtwOptions& options = {}, Control* control = nullptr);
 
-/// The distance, with how it was found (see docs/performance.md).
+/// The distance, with how it was found (see docs/explanation/exact_and_fast.md).
 CURVEWISE_EXPORT WarpingInfo dtw_info(const CurveView& P, const CurveView& Q,
                                       const DtwOptions& options = {}, Control* control = nullptr);
 

@@ -71,7 +71,7 @@ CURVEWISE_EXPORT Alignment frechet_path(const CurveView& P, const CurveView& Q,
 CURVEWISE_EXPORT void frechet_table(const CurveView& P, const CurveView& Q, double* out,
                                     const FrechetOptions& options = {}, Control* control = nullptr);
 
-/// The distance, with how it was found (see docs/performance.md).
+/// The distance, with how it was found (see docs/explanation/exact_and_fast.md).
 CURVEWISE_EXPORT WarpingInfo frechet_info(const CurveView& P, const CurveView& Q,
                                           const FrechetOptions& options = {},
                                           Control* control = nullptr);

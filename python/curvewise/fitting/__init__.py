@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from .._names import names_alone
 from .beginnings import BeginningWarning
-from .doubtful import UndeterminedCardError
+from .card_refusals import UndeterminedCardError
 from .flow_curve import FlowCurve, FlowLaw, flow_curve
 from .material_fit import MaterialFit, fit_material
 from .preparation import PreparedTest, prepare

@@ -9,7 +9,7 @@ from pathlib import Path
 from ..calibration import Identification, Uncertainty
 from ..materials import DrivenModel, Material
 from ..solvers.cards import FORMATS
-from .doubtful import check_doubts, doubts_of
+from .card_refusals import check_refusals, refusals_of
 
 __all__ = ["CardsOfFit"]
 
@@ -39,7 +39,7 @@ class CardsOfFit:
         One of them is doubtful if the tests do not determine it, and its interval reaches a bound
         of the search or is wider than its value.
         """
-        return doubts_of(self.uncertainty, self.found.bounds, self.units)
+        return refusals_of(self.uncertainty, self.found.bounds, self.units)
 
     def card(
         self, solver: str, *, name: str = "material", accept_undetermined: bool = False
@@ -66,7 +66,7 @@ class CardsOfFit:
             If the solver does not have such a material.
         """
         if not accept_undetermined:
-            check_doubts(self.doubtful, solver)
+            check_refusals(self.doubtful, solver)
         verdict = self.found.verdict
         return self.material.card(
             self.parameters,
@@ -109,7 +109,7 @@ class CardsOfFit:
         for file in files.values():
             file.unlink(missing_ok=True)
         if files and not accept_undetermined:
-            check_doubts(self.doubtful, ", ".join(files))
+            check_refusals(self.doubtful, ", ".join(files))
         for solver, file in files.items():
             text = self.card(solver, name=name, accept_undetermined=True)
             file.write_text(text, encoding="utf-8")

@@ -67,6 +67,7 @@ def test_known_slopes_give_the_errors_that_differences_give(found) -> None:
         method=TrustRegion(starts=1),
         progress=False,
     ).uncertainty(sigma=1.0)
+    # Eight runs near the optimum of six parameters barely show the curvature in gamma1.
     for name in problem.space.names:
         assert exact.standard_errors[name] == pytest.approx(blind.standard_errors[name], rel=0.12)
 

@@ -10,7 +10,7 @@ import pytest
 
 from curvewise.commands import main
 from curvewise.fitting import MaterialFit, UndeterminedCardError, fit_material
-from curvewise.fitting.doubtful import doubts_of
+from curvewise.fitting.card_refusals import refusals_of
 from curvewise.materials import ChabocheVoce
 from curvewise.studies import Study
 
@@ -49,15 +49,15 @@ def test_only_a_modulus_and_a_yield_stress_are_doubtful_and_only_by_the_rule(
     known = SimpleNamespace(
         parameters={name: value}, intervals={name: interval}, determined={name: False}, level=0.95
     )
-    doubts = doubts_of(known, {name: (3.2, 200.0)}, "ksi")  # type: ignore[arg-type]
+    doubts = refusals_of(known, {name: (3.2, 200.0)}, "ksi")  # type: ignore[arg-type]
     assert list(doubts) == ([] if reason is None else [name])
     assert reason is None or reason in doubts[name]
     known.determined[name] = True
-    assert doubts_of(known, {name: (3.2, 200.0)}, "ksi") == {}  # type: ignore[arg-type]
+    assert refusals_of(known, {name: (3.2, 200.0)}, "ksi") == {}  # type: ignore[arg-type]
 
 
 def test_what_is_not_searched_for_or_not_known_is_no_doubt(fit: MaterialFit) -> None:
-    assert doubts_of(None, {}, "MPa") == {}
+    assert refusals_of(None, {}, "MPa") == {}
     assert list(fit.doubtful) == ["yield"]  # E is given
 
 

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from ..calibration import Uncertainty
 from ..calibration.problem.tables import digits
 
-__all__ = ["UndeterminedCardError", "check_doubts", "doubts_of"]
+__all__ = ["UndeterminedCardError", "check_refusals", "refusals_of"]
 
 _ALONE = ("E", "yield", "Y")
 _REACHED = 1e-6  # part of the bounds' range
@@ -31,7 +31,7 @@ class UndeterminedCardError(ValueError):
     """
 
 
-def doubts_of(
+def refusals_of(
     uncertainty: Uncertainty | None, bounds: Mapping[str, tuple[float, float]], units: str
 ) -> dict[str, str]:
     """Return why a modulus or a yield stress is doubtful, by name.
@@ -65,13 +65,13 @@ def doubts_of(
     return found
 
 
-def check_doubts(doubts: Mapping[str, str], solvers: str) -> None:
+def check_refusals(doubts: Mapping[str, str], solvers: str) -> None:
     """Refuse cards with doubtful numbers, and say what to do.
 
     Parameters
     ----------
     doubts : mapping of str to str
-        As `doubts_of` returns them.
+        As `refusals_of` returns them.
     solvers : str
         For which the cards are.
 
