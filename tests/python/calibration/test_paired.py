@@ -29,8 +29,8 @@ def test_the_scatter_of_a_spatial_median(deviations) -> None:
     np.testing.assert_allclose(scaled, expected)
 
 
-def spring(parameters):
-    force = np.interp(np.arange(121) / 40, range(4), (0.0, 100.0, -100.0, 100.0))
+def spring(parameters, leg=40):
+    force = np.interp(np.arange(3 * leg + 1) / leg, range(4), (0.0, 100.0, -100.0, 100.0))
     return np.column_stack((force / parameters["k"] + parameters["c"] * force**3, force))
 
 
@@ -59,3 +59,11 @@ def test_what_is_no_pair() -> None:
     for fitted, is_paired in ((curve, True), (driven, False), (curve[::2], False)):
         ((_, _, _, pairs),) = fitted_tests(Objective([noisy], measure="dtw"), [fitted])
         assert (pairs is not None) == is_paired
+
+
+def test_steps_shorter_than_the_noise_make_no_pairs() -> None:
+    curve = spring(TRUTH, leg=1000)
+    deviations = 0.01 * np.ptp(curve, axis=0)
+    noisy = curve + np.random.default_rng(0).normal(size=curve.shape) * deviations
+    ((_, _, _, pairs),) = fitted_tests(Objective([noisy], measure="dtw"), [curve])
+    assert pairs is None
