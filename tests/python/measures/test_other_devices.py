@@ -31,13 +31,12 @@ def gpu(name: str) -> Any:
     return devices[0] if devices else None
 
 
-on_each_gpu = pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(name, marks=pytest.mark.skipif(gpu(name) is None, reason=f"no GPU in {name}"))
-        for name in ("torch", "jax")
-    ],
-)
+@pytest.fixture(params=["torch", "jax"])
+def name(request) -> str:
+    """A package that sees a GPU. It is imported here: every process collects this file."""
+    if gpu(request.param) is None:
+        pytest.skip(f"no GPU in {request.param}")
+    return request.param
 
 
 def measured(name: str, measure: str, P: list, Q: list, options: dict) -> tuple[Any, list, list]:
@@ -65,7 +64,6 @@ def measured(name: str, measure: str, P: list, Q: list, options: dict) -> tuple[
     return values, *([np.asarray(slope) for slope in part] for part in slopes)
 
 
-@on_each_gpu
 @pytest.mark.parametrize(("measure", "options"), DIAGONALS)
 def test_the_values_of_the_cpu_on_the_gpu(name, measure, options) -> None:
     P, Q = curves_of(LENGTHS[0], 0), curves_of(LENGTHS[1], 1)
@@ -79,7 +77,6 @@ def test_the_values_of_the_cpu_on_the_gpu(name, measure, options) -> None:
         np.testing.assert_allclose(by_Q[k], slope_Q, rtol=1e-8, atol=1e-8)
 
 
-@on_each_gpu
 def test_other_losses_return_to_the_gpu(name) -> None:
     P, Q = curves_of(LENGTHS[0], 2), curves_of(LENGTHS[1], 3)
     values, by_P, _ = measured(name, "frechet", P, Q, {})
