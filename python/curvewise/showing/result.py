@@ -76,7 +76,7 @@ class Table:
 
 def _is_number(cell: str) -> bool:
     try:
-        float(cell or "0")
+        float(cell.lstrip("<>") or "0")  # an interval's end may have a mark
     except ValueError:
         return False
     return True

@@ -284,6 +284,9 @@ def test_a_bound_of_zero_is_a_limit():
     space = Space({"rate": (0.0, 1.0), "softening": (-1.0, 0.0), "b": (-1.0, 1.0)})
     assert space.at_limits({"rate": 0.0, "softening": 0.0, "b": 0.0}) == ("rate", "softening")
     assert space.at_limits({"rate": 1.0, "softening": -1.0, "b": 1.0}) == ()
+    assert space.open_ends("rate", (0.0, 1.0), {}) == (False, True)
+    assert space.open_ends("softening", (-1.0, 0.0), {}) == (True, False)
+    assert space.open_ends("b", (-0.9, 1.1), {}) == (False, False)  # of the linear theory
 
 
 def test_a_start_among_ordered_and_logarithmic_parameters():

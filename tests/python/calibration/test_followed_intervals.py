@@ -246,3 +246,20 @@ def test_where_a_parameter_is_at_its_bound_no_end_counts_for_its_parameter_alone
     assert np.array(list(uncertainty.intervals.values())) == pytest.approx(
         all_ends if at_bound else own, rel=1e-6
     )
+
+
+def test_an_end_at_a_bound_is_open_and_said_to_be():
+    """Growth with so much noise that any smaller value is possible too, down to the bound."""
+    test = np.column_stack((X, X))
+    found = identify(
+        Growth(), test, {"a": (-3.0, 3.0)}, measure="sum_of_squares", progress=False, start={"a": 0}
+    )
+    uncertainty = found.uncertainty(sigma=3.0)
+    assert uncertainty.intervals["a"][0] == -3.0
+    assert uncertainty.open_ends == {"a": (True, False)}
+    shown = str(uncertainty)
+    assert "<-3 " in shown
+    assert "the interval ends at a bound" in shown
+    narrow = found.uncertainty(sigma=0.8)
+    assert narrow.open_ends == {"a": (False, False)}
+    assert "ends at a bound" not in str(narrow)

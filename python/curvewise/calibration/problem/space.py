@@ -239,13 +239,26 @@ class Space:
 
         Nothing lies beyond such a bound, because a modulus, a rate or a share cannot be negative.
         """
-        found = []
-        for name, side in self.at_bounds(parameters).items():
-            i, upper = self.names.index(name), side == "upper"
-            above = parameters[self.names[self._others[i]]] if i in self._others else math.inf
-            if self.bounds[name][upper] == 0.0 or (upper and above < self.bounds[name][1]):
-                found.append(name)
-        return tuple(found)
+        at_bounds = self.at_bounds(parameters)
+        return tuple(n for n, side in at_bounds.items() if self._is_limit(n, side, parameters))
+
+    def _is_limit(self, name: str, side: str, parameters: Mapping[str, float]) -> bool:
+        i, upper = self.names.index(name), side == "upper"
+        above = parameters[self.names[self._others[i]]] if i in self._others else math.inf
+        return self.bounds[name][upper] == 0.0 or (upper and above < self.bounds[name][1])
+
+    def open_ends(
+        self, name: str, interval: tuple[float, float], parameters: Mapping[str, float]
+    ) -> tuple[bool, bool]:
+        """Return which ends of a parameter's interval are at a bound, and not at a limit.
+
+        There the bound, and not the tests, has ended the interval.
+        """
+        low, high = (self.place(name, end, parameters) for end in interval)
+        return (
+            abs(low) < _AT_BOUND and not self._is_limit(name, "lower", parameters),
+            abs(1.0 - high) < _AT_BOUND and not self._is_limit(name, "upper", parameters),
+        )
 
     def differential(self, unit: Array) -> Array:
         """Return the derivatives of the parameters by the place in the unit cube, shape (k, k)."""

@@ -9,7 +9,7 @@ from typing import Any
 from ...showing.result import Table
 from .space import Space
 
-__all__ = ["digits", "measure_table", "parameter_table", "per_cent"]
+__all__ = ["digits", "ends_of", "measure_table", "parameter_table", "per_cent"]
 
 _NARROWEST = 12  # characters of a column of numbers
 
@@ -30,7 +30,7 @@ def parameter_table(
     parameters : mapping of str to float
         The optimum.
     spread : mapping, optional
-        "standard_errors", "intervals", "determined" and "level" of an uncertainty.
+        "standard_errors", "intervals", "open_ends", "determined" and "level" of an uncertainty.
     with_bounds : bool, default True
         Whether the bounds are listed.
     """
@@ -41,6 +41,7 @@ def parameter_table(
         header += ["from", "to"] if spread is None else ["lower bound", "upper bound"]
     at_bounds = space.at_bounds(parameters) if parameters else {}
     limits = space.at_limits(parameters) if parameters else ()
+    is_open = {} if spread is None else spread.get("open_ends", {})  # older records do not have it
     rows = []
     for name, value in parameters.items():
         cells = [name, f"{value:.6g}"]
@@ -51,12 +52,18 @@ def parameter_table(
             if spread is not None:
                 error, interval = spread["standard_errors"][name], spread["intervals"][name]
                 cells += [digits(error, 3), per_cent(error, value)]
-                cells += [digits(end, 5) for end in interval]
+                cells += ends_of(interval, is_open.get(name, (False, False)), 5)
                 note = note or ("" if spread["determined"][name] else "not determined")
             if with_bounds:
                 cells += [f"{bound:.6g}" for bound in space.bounds[name]]
         rows.append([*cells, *[""] * (len(header) - len(cells)), note])
     return Table(rows, [*header, ""], _NARROWEST)
+
+
+def ends_of(interval: tuple[float, float], is_open: tuple[bool, bool], count: int) -> list[str]:
+    """Return both ends of an interval with `count` digits; "<" and ">" mark ends at a bound."""
+    marks = ("<" * is_open[0], ">" * is_open[1])
+    return [f"{mark}{digits(end, count)}" for mark, end in zip(marks, interval, strict=True)]
 
 
 def digits(value: float, count: int) -> str:

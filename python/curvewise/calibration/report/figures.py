@@ -25,7 +25,7 @@ from ...drawing.palette import (
     series_colours,
 )
 from ..problem.space import Space
-from ..problem.tables import per_cent
+from ..problem.tables import ends_of, per_cent
 from ..records.evaluation import Evaluation
 from .shown_search import Loop
 
@@ -139,7 +139,9 @@ def intervals(space: Space, parameters: dict[str, float], summary: dict[str, Any
             ends.append([min(max(place, 0.0), 1.0) for place in places])
             share = per_cent(summary["standard_errors"][name], value)
             error = f" ± {share} %" if share else ""
-            texts.append(html.escape(f"{name} = {value:.5g}{error}, {low:.5g} to {high:.5g}"))
+            is_open = summary.get("open_ends", {}).get(name, (False, False))
+            within = " to ".join(ends_of((low, high), is_open, 5))
+            texts.append(html.escape(f"{name} = {value:.5g}{error}, {within}"))
         bars = _bars(chosen, [(low, high) for low, high, _ in ends], label, colour, 3)
         at = [place for *_, place in ends]
         dots = _trace(at, chosen, label, colour, "markers", size=10, legendgroup=label)

@@ -93,7 +93,10 @@ def _parameters(search: ShownSearch, add: AddFigure) -> str:
         parts.append(paragraph(search.reason))
     else:
         noise = ", ".join(f"{sigma:.3g}" for sigma in summary["sigma"])
-        note = paragraph(f"Intervals from noise of standard deviation {noise} in y, loop by loop.")
+        note = paragraph(
+            f"Intervals from noise of standard deviation {noise} in y, loop by loop. < and >: the "
+            "interval ends at a bound, and values beyond it are possible."
+        )
         intervals = figures.intervals(space, parameters, summary)
         correlations = figures.correlations(space.names, summary["correlations"])
         left = add(intervals, "Intervals between the bounds")

@@ -168,8 +168,13 @@ def _range(summary: Mapping[str, Any], name: str) -> str:
     """Return an interval that is too wide; nothing for one that is not."""
     if name in summary["at_bounds"] or summary["determined"].get(name, True):
         return ""
-    low, high = summary["intervals"][name]
-    return f" ({digits(low, 3)} to {digits(high, 3)})"
+    low, high = (digits(end, 3) for end in summary["intervals"][name])
+    is_open = summary.get("open_ends", {}).get(name, (False, False))  # older records do not have it
+    if all(is_open):
+        return " (any value within its bounds)"
+    if any(is_open):
+        return f" ({high} or less)" if is_open[0] else f" ({low} or more)"
+    return f" ({low} to {high})"
 
 
 def _undetermined(search: ShownSearch, summary: Mapping[str, Any], left: list[str]) -> list[str]:

@@ -75,6 +75,9 @@ class Uncertainty(Result):
         Whether a parameter is known precisely enough and not at a bound. Half its interval must be
         within 25 % of the bounds' range, and within 25 % of the value or 2 % of the bounds' range,
         whichever is more. With `samples`, the interval by sensitivities must also satisfy this.
+    open_ends : dict of str to (bool, bool)
+        Whether each end of an interval is at a bound that is not a limit. The tests do not exclude
+        values beyond such an end. Texts mark it by "<" or ">".
     at_bounds : dict of str to str
         "lower" or "upper", for the parameters that are at a bound.
     at_limits : tuple of str
@@ -97,6 +100,7 @@ class Uncertainty(Result):
     singular_values: Array = field(repr=False)
     weakest_direction: dict[str, float]
     determined: dict[str, bool]
+    open_ends: dict[str, tuple[bool, bool]]
     at_bounds: dict[str, str]
     at_limits: tuple[str, ...]
     sigma: Array = field(repr=False)
@@ -168,6 +172,8 @@ class Uncertainty(Result):
                 f"not determined by these tests: {', '.join(self.at_limits)}, at a limit beyond "
                 "which nothing lies"
             )
+        if any(map(any, self.open_ends.values())):
+            lines.append("< and >: the interval ends at a bound, and values beyond it are possible")
         lines.append(f"weakest direction: {self.in_words}")
         if moved := self._biased():
             lines.append(
@@ -272,6 +278,10 @@ def uncertainty_of(
         singular_values=values,
         weakest_direction=named(weakest.tolist()),
         determined=determined(space, parameters, halves),
+        open_ends={
+            name: space.open_ends(name, interval, parameters)
+            for name, interval in named(spread.intervals).items()
+        },
         at_bounds=space.at_bounds(parameters),
         at_limits=space.at_limits(parameters),
         sigma=noise.sigma,
