@@ -265,7 +265,7 @@ def survive_failures(model: CubeModel, tests: Sequence[Array], workers: int) -> 
 
 def last_error(message: str) -> str:
     """Return the last error in the log that a message names."""
-    log = Path(message.rpartition("log: ")[2])
+    log = Path(message.rpartition("log: ")[2].partition(" | ")[0])  # quotes of it follow
     errors = [line.strip() for line in log.read_text().splitlines() if "*ERROR" in line]
     return errors[-1] if errors else "(the log has no error)"
 
