@@ -48,7 +48,32 @@ Material read_material(const py::dict& options) {
     return material;
 }
 
-// The functions <name>_parameters(options) and <name>_stress(options, parameters, strain, slopes).
+// Calls compute(answer, slopes, control) and returns the answer, or both. `slopes` is null unless
+// they are asked for. n points, k parameters.
+template <class Compute>
+py::object answered(py::ssize_t n, py::ssize_t k, bool with_slopes, double steps_of_a_point,
+                    Compute compute) {
+    RowMajor answer(n), slopes(std::vector<py::ssize_t>{with_slopes ? n : 0, k});
+    double* const out = answer.mutable_data();
+    double* const slopes_out = with_slopes ? slopes.mutable_data() : nullptr;
+    interruptible((with_slopes ? 4.0 : 1.0) * steps_of_a_point * static_cast<double>(n), py::none(),
+                  [&](Control* control) { compute(out, slopes_out, control); });
+    if (with_slopes) return py::make_tuple(answer, slopes);
+    return std::move(answer);
+}
+
+template <class Material>
+Material material_of(const py::dict& options, const RowMajor& parameters) {
+    auto material = read_material<Material>(options);
+    const auto k = static_cast<std::size_t>(parameters.size());
+    if (k != material_parameters(material).size()) {
+        throw std::invalid_argument("wrong number of parameters");
+    }
+    return material;
+}
+
+// The functions <name>_parameters(options), <name>_stress(options, parameters, strain, slopes) and
+// <name>_response(options, parameters, given, by_stress, slopes).
 template <class Material>
 void bind(py::module_& module, const std::string& name) {
     module.def((name + "_parameters").c_str(), [](const py::dict& options) {
@@ -58,25 +83,30 @@ void bind(py::module_& module, const std::string& name) {
         }
         return rows;
     });
-    module.def((name + "_stress").c_str(),
-               [](const py::dict& options, const RowMajor& parameters, const RowMajor& strain,
-                  bool with_slopes) -> py::object {
-                   const auto material = read_material<Material>(options);
-                   const py::ssize_t n = strain.size(), k = parameters.size();
-                   if (static_cast<std::size_t>(k) != material_parameters(material).size()) {
-                       throw std::invalid_argument("wrong number of parameters");
+    module.def((name + "_stress").c_str(), [](const py::dict& options, const RowMajor& parameters,
+                                              const RowMajor& strain, bool with_slopes) {
+        const auto material = material_of<Material>(options, parameters);
+        const py::ssize_t n = strain.size();
+        return answered(n, parameters.size(), with_slopes, 100.0,
+                        [&](double* stress, double* slopes, Control* control) {
+                            material_stress(material, parameters.data(), strain.data(), n, stress,
+                                            slopes, control);
+                        });
+    });
+    module.def((name + "_response").c_str(),
+               [](const py::dict& options, const RowMajor& parameters, const RowMajor& given,
+                  const py::array_t<bool, py::array::c_style>& by_stress, bool with_slopes) {
+                   const auto material = material_of<Material>(options, parameters);
+                   const py::ssize_t n = given.size();
+                   if (by_stress.size() != n) {
+                       throw std::invalid_argument("by_stress has another length than given");
                    }
-                   RowMajor stress(n), slopes(std::vector<py::ssize_t>{with_slopes ? n : 0, k});
-                   double* const out = stress.mutable_data();
-                   double* const slopes_out = with_slopes ? slopes.mutable_data() : nullptr;
-                   const double steps_of_a_point = with_slopes ? 400.0 : 100.0;
-                   interruptible(steps_of_a_point * static_cast<double>(n), py::none(),
-                                 [&](Control* control) {
-                                     material_stress(material, parameters.data(), strain.data(), n,
-                                                     out, slopes_out, control);
-                                 });
-                   if (with_slopes) return py::make_tuple(stress, slopes);
-                   return std::move(stress);
+                   return answered(n, parameters.size(), with_slopes, 1000.0,
+                                   [&](double* answer, double* slopes, Control* control) {
+                                       material_response(material, parameters.data(), given.data(),
+                                                         by_stress.data(), n, answer, slopes,
+                                                         control);
+                                   });
                });
 }
 

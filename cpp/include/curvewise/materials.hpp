@@ -1,8 +1,8 @@
 /// \file
 /// Material points: the stress along a path of strain, and its derivatives by every parameter, for
-/// models whose parameters are identified from loops. The models are uniaxial, driven by strain,
-/// independent of its rate, and unloaded at the start. The strain runs monotonically from each
-/// value to the next.
+/// models whose parameters are identified from loops. The models are uniaxial, driven by strain or
+/// by stress, independent of their rate, and unloaded at the start. The strain runs monotonically
+/// from each value to the next.
 ///
 /// ChabocheVoce: back stresses X_k and a yield stress that grows or shrinks,
 ///
@@ -115,5 +115,20 @@ CURVEWISE_EXPORT void material_stress(const ChabocheVoce& material, const double
 CURVEWISE_EXPORT void material_stress(const YoshidaUemori& material, const double* parameters,
                                       const double* strain, std::ptrdiff_t n, double* stress,
                                       double* slopes = nullptr, Control* control = nullptr);
+
+/// Writes the response of a material to a path that gives the stress at some points and the strain
+/// at the others: answer[i] is the strain where by_stress[i] is true and given[i] is a stress, and
+/// the stress elsewhere. `slopes` are as those of material_stress(), of the answers. A stress is
+/// reached by the first strain that a search finds, for materials that harden by the only one.
+/// Throws std::invalid_argument too if hardening ends before a stress. About ten times the time of
+/// material_stress().
+CURVEWISE_EXPORT void material_response(const ChabocheVoce& material, const double* parameters,
+                                        const double* given, const bool* by_stress,
+                                        std::ptrdiff_t n, double* answer, double* slopes = nullptr,
+                                        Control* control = nullptr);
+CURVEWISE_EXPORT void material_response(const YoshidaUemori& material, const double* parameters,
+                                        const double* given, const bool* by_stress,
+                                        std::ptrdiff_t n, double* answer, double* slopes = nullptr,
+                                        Control* control = nullptr);
 
 }  // namespace curvewise

@@ -131,7 +131,8 @@ class ChabocheVocePoint {
           falls_(state_.size()) {}
 
     // The stress after a further increment of strain.
-    Number advance(double increment) {
+    template <class Increment>
+    Number advance(const Increment& increment) {
         const Number slope = modulus_.after(p_), trial = stress_ + slope * increment;
         Number centre(0.0);
         for (std::size_t k = 1; k < state_.size(); ++k) centre += state_[k];

@@ -18,22 +18,38 @@ void check_modulus(const Parameters& parameters, Modulus modulus) {
     parameters.at_least_zero(2);
 }
 
+void check_strain(double strain, std::ptrdiff_t i) {
+    if (std::abs(strain) <= most_strain) return;
+    const std::string what = "strain[" + std::to_string(i) + "] is " + text_of(strain);
+    if (!std::isfinite(strain)) throw std::invalid_argument(what + "; strains must be finite");
+    throw std::invalid_argument(what + "; give strains, 0.01 for 1 %, of at most 100");
+}
+
 void check_strains(const double* strain, std::ptrdiff_t n) {
-    constexpr double largest = 100.0;
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
-        if (std::abs(strain[i]) <= largest) continue;
-        const std::string what = "strain[" + std::to_string(i) + "] is " + text_of(strain[i]);
-        if (!std::isfinite(strain[i])) {
-            throw std::invalid_argument(what + "; strains must be finite");
-        }
-        throw std::invalid_argument(what + "; give strains, 0.01 for 1 %, of at most 100");
-    }
+    for (std::ptrdiff_t i = 0; i < n; ++i) check_strain(strain[i], i);
 }
 
 void refuse_stress(std::ptrdiff_t i, double stress) {
     throw NoStress{"the stress at strain[" + std::to_string(i) + "] is " + text_of(stress) +
                        ", beyond what hardening leads to",
                    ""};
+}
+
+void check_given(const double* given, const bool* by_stress, std::ptrdiff_t n) {
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        if (!by_stress[i]) {
+            check_strain(given[i], i);
+        } else if (!std::isfinite(given[i])) {
+            throw std::invalid_argument("stress[" + std::to_string(i) + "] is " +
+                                        text_of(given[i]) + "; stresses must be finite");
+        }
+    }
+}
+
+void refuse_target(std::ptrdiff_t i, double target, double reached) {
+    throw std::invalid_argument("the material does not reach stress[" + std::to_string(i) +
+                                "] = " + text_of(target) +
+                                " with these parameters; hardening ends at " + text_of(reached));
 }
 
 void check_slopes(std::ptrdiff_t i, const double* slopes, std::size_t first, std::size_t width,

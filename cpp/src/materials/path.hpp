@@ -99,8 +99,13 @@ struct YoungsModulus {
     Number rate{};
 };
 
-// Throws for an invalid strain: not finite, or beyond 100 (10,000 %).
+inline constexpr double most_strain = 100.0;  // 10,000 %
+
+// Throws for an invalid strain: not finite, or beyond the largest.
+void check_strain(double strain, std::ptrdiff_t i);
 void check_strains(const double* strain, std::ptrdiff_t n);
+// The same, of strains and of stresses.
+void check_given(const double* given, const bool* by_stress, std::ptrdiff_t n);
 
 // Throws NoStress: parameters beyond all metals, whose products overflow or lose all digits.
 [[noreturn]] void refuse_stress(std::ptrdiff_t i, double stress);

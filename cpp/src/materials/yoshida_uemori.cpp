@@ -7,8 +7,54 @@
 #include <vector>
 
 #include "curvewise/materials.hpp"
+#include "materials/control_by_stress.hpp"
 
 namespace curvewise {
+
+namespace {
+
+using materials::Parameters;
+using materials::YoshidaUemoriPoint;
+
+std::size_t place_of_bound(const YoshidaUemori& material) {
+    return material.modulus == Modulus::constant ? 1 : 3;
+}
+
+// Throws for parameters that make no sense.
+Parameters checked_parameters(const YoshidaUemori& material, const double* values) {
+    const Parameters checked(material_parameters(material), values);
+    materials::check_modulus(checked, material.modulus);
+    const std::size_t CB = place_of_bound(material), Y = CB + 1, C = CB + 2, H = CB + 6;
+    checked.above_zero(Y);
+    checked.above_zero(C);
+    for (std::size_t i = C + 1; i < checked.count(); ++i) checked.at_least_zero(i);
+    if (checked[CB] <= checked[Y]) {
+        checked.refuse(CB, "the bounding surface must enclose the yield surface; give CB > Y");
+    }
+    if (material.growth == BoundGrowth::power && checked[H + 1] == 0.0) {
+        checked.refuse(H + 1, "it must be above 0");
+    }
+    constexpr double most_share = 1e6;  // beyond it rounding decides where growth stagnates
+    if (checked[H] > most_share) checked.refuse(H, "it must be at most 1e6");
+    if (!(material.rtol >= 1e-12 && material.rtol <= 1e-3)) {
+        throw std::invalid_argument("rtol is " + materials::text_of(material.rtol) +
+                                    "; give a number from 1e-12 to 1e-3");
+    }
+    return checked;
+}
+
+// What hardening leads to at most, along a path of strain of a length.
+double largest_stress(const YoshidaUemori& material, const Parameters& checked, double path) {
+    const std::size_t CB = place_of_bound(material), RSAT = CB + 4, SB = CB + 5, H = CB + 6;
+    double growth = checked[RSAT];
+    if (material.growth == BoundGrowth::power) {
+        const double C1 = checked[H + 1], C2 = checked[H + 2];
+        growth *= std::pow(C1 + path, C2) - std::pow(C1, C2);
+    }
+    return materials::with_rounding(checked[CB] + growth + checked[SB], 10.0 * material.rtol);
+}
+
+}  // namespace
 
 std::vector<MaterialParameter> material_parameters(const YoshidaUemori& material) {
     std::vector<MaterialParameter> parameters = materials::modulus_parameters(material.modulus);
@@ -29,40 +75,31 @@ std::vector<MaterialParameter> material_parameters(const YoshidaUemori& material
 
 void material_stress(const YoshidaUemori& material, const double* parameters, const double* strain,
                      std::ptrdiff_t n, double* stress, double* slopes, Control* control) {
-    const materials::Parameters checked(material_parameters(material), parameters);
-    materials::check_modulus(checked, material.modulus);
-    const std::size_t CB = material.modulus == Modulus::constant ? 1 : 3;
-    const std::size_t Y = CB + 1, C = CB + 2, RSAT = CB + 4, SB = CB + 5, H = CB + 6;
-    checked.above_zero(Y);
-    checked.above_zero(C);
-    for (std::size_t i = C + 1; i < checked.count(); ++i) checked.at_least_zero(i);
-    if (checked[CB] <= checked[Y]) {
-        checked.refuse(CB, "the bounding surface must enclose the yield surface; give CB > Y");
-    }
-    if (material.growth == BoundGrowth::power && checked[H + 1] == 0.0) {
-        checked.refuse(H + 1, "it must be above 0");
-    }
-    constexpr double most_share = 1e6;  // beyond it rounding decides where growth stagnates
-    if (checked[H] > most_share) checked.refuse(H, "it must be at most 1e6");
-    if (!(material.rtol >= 1e-12 && material.rtol <= 1e-3)) {
-        throw std::invalid_argument("rtol is " + materials::text_of(material.rtol) +
-                                    "; give a number from 1e-12 to 1e-3");
-    }
+    const Parameters checked = checked_parameters(material, parameters);
     materials::check_strains(strain, n);
-    double growth = checked[RSAT];
-    if (material.growth == BoundGrowth::power) {
-        double path = 0.0;
-        for (std::ptrdiff_t i = 0; i < n; ++i) {
-            path += std::abs(strain[i] - (i > 0 ? strain[i - 1] : 0.0));
-        }
-        const double C1 = checked[H + 1], C2 = checked[H + 2];
-        growth *= std::pow(C1 + path, C2) - std::pow(C1, C2);
+    double path = 0.0;
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        path += std::abs(strain[i] - (i > 0 ? strain[i - 1] : 0.0));
     }
-    const double most =
-        materials::with_rounding(checked[CB] + growth + checked[SB], 10.0 * material.rtol);
     try {
-        materials::integrate<materials::YoshidaUemoriPoint>(material, checked, most, strain, n,
-                                                            stress, slopes, control);
+        materials::integrate<YoshidaUemoriPoint>(material, checked,
+                                                 largest_stress(material, checked, path), strain, n,
+                                                 stress, slopes, control);
+    } catch (const materials::NoStress& found) {
+        checked.refuse(found);
+    }
+}
+
+void material_response(const YoshidaUemori& material, const double* parameters, const double* given,
+                       const bool* by_stress, std::ptrdiff_t n, double* answer, double* slopes,
+                       Control* control) {
+    const Parameters checked = checked_parameters(material, parameters);
+    materials::check_given(given, by_stress, n);
+    const double longest = 2.0 * materials::most_strain * static_cast<double>(n);
+    try {
+        materials::respond<YoshidaUemoriPoint>(material, checked,
+                                               largest_stress(material, checked, longest), given,
+                                               by_stress, n, answer, slopes, control);
     } catch (const materials::NoStress& found) {
         checked.refuse(found);
     }

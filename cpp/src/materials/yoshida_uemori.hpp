@@ -27,7 +27,8 @@ class YoshidaUemoriPoint {
         : k_(material, parameters), plain_(material, values_of(parameters, count).data()) {}
 
     // The stress after a further increment of strain.
-    Number advance(double increment) {
+    template <class Increment>
+    Number advance(const Increment& increment) {
         const Number slope = k_.modulus.after(p_), trial = stress_ + slope * increment;
         const Number size = k_.CB + R_ - k_.Y;
         const Number middle = size * u_ * (value_of(u_) < 0.0 ? -u_ : u_) + centre_;

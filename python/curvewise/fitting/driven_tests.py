@@ -39,7 +39,7 @@ class DrivenTests(NamedTuple):
         Strain and stress of each test, point by point like the model's.
     """
 
-    model: DrivenModel
+    model: DrivenModel[Material]
     compared: tuple[Array, ...]
 
     @classmethod

@@ -17,7 +17,7 @@ __all__ = ["CardsOfFit"]
 class CardsOfFit:
     """What a fit has for its cards: parameters, intervals, and which of them are doubtful."""
 
-    model: DrivenModel
+    model: DrivenModel[Material]
     found: Identification
     uncertainty: Uncertainty | None
     units: str

@@ -73,7 +73,7 @@ class MaterialFit(CardsOfFit):
         The compared cycles.
     """
 
-    model: DrivenModel = field(repr=False)
+    model: DrivenModel[Material] = field(repr=False)
     tests: tuple[Array, ...] = field(repr=False)
     found: Identification
     uncertainty: Uncertainty | None

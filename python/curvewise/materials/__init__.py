@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from .._names import names_alone
 from .chaboche_voce import ChabocheVoce
-from .material import DrivenModel, Material, Parameter
+from .driven_model import DrivenModel
+from .material import Material
+from .point import Parameter
 from .yoshida_uemori import YoshidaUemori
 
 __all__ = ["MATERIALS", "ChabocheVoce", "DrivenModel", "Material", "Parameter", "YoshidaUemori"]

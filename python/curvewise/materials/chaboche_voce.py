@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from .._bounds import Bounds, Log
-from .._core import chaboche_voce_parameters, chaboche_voce_stress
+from .._core import chaboche_voce_parameters, chaboche_voce_response, chaboche_voce_stress
 from .material import Material
 from .readings import Span
 
@@ -56,8 +56,8 @@ class ChabocheVoce(Material):
     modulus: Literal["constant", "decaying"] = "constant"
 
     @property
-    def _compiled(self) -> tuple[Any, Any]:
-        return chaboche_voce_parameters, chaboche_voce_stress
+    def _compiled(self) -> tuple[Any, Any, Any]:
+        return chaboche_voce_parameters, chaboche_voce_stress, chaboche_voce_response
 
     def _hardening_bounds(self, span: Span) -> Bounds:
         # Steep back stresses leave little initial yield stress; softening may remove much of it.

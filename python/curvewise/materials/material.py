@@ -1,123 +1,47 @@
-"""The base of every point of material: names of parameters in, stresses and slopes out.
-
-A material is a frozen dataclass of its options; the compiled library computes its stresses
-(cpp/include/curvewise/materials.hpp says how). O(n) time and memory for n strains, and for slopes
-by k parameters k / 8 times that.
-"""
+"""The base of every material: its model for `identify`, its bounds, and its cards."""
 
 from __future__ import annotations
 
 import datetime
-import hashlib
-from abc import ABC, abstractmethod
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from abc import abstractmethod
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from functools import cache
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
-from .._bounds import Bounds, Log, OutsideModelError, on_its_scale
+from .._bounds import Bounds, Log, on_its_scale
 from .._names import did_you_mean
-from ..curves.inputs import Array, as_curve
 from ..curves.several_curves import curve_list
-from ..installation import build_info
 from ..solvers.cards import CardContent, card_text
 from .card_paths import CYCLES, paths_of
+from .driven_model import DrivenModel, Part, PointType, given_stresses
+from .point import MaterialPoint
 from .readings import Reading, Span, reading_of, strain_and_stress
 
-__all__ = ["DrivenModel", "Material", "Parameter", "Part"]
-
-Part: TypeAlias = "slice | npt.NDArray[np.int64]"
-
-
-class Parameter(NamedTuple):
-    """One parameter of a material.
-
-    Attributes
-    ----------
-    name : str
-        The name in the dict of parameters.
-    unit : str
-        "stress", the unit of the stresses, or "-".
-    meaning : str
-        The meaning.
-    """
-
-    name: str
-    unit: str
-    meaning: str
+__all__ = ["Material"]
 
 
 @dataclass(frozen=True)
-class Material(ABC):
-    """A point of material under uniaxial strain, unloaded at the start, without rate."""
+class Material(MaterialPoint):
+    """A point of material with bounds that tests suggest, and with material cards."""
 
-    @property
-    @abstractmethod
-    def _compiled(self) -> tuple[Any, Any]:
-        """The compiled functions of parameters and of stresses."""
-
-    @property
-    def parameters(self) -> tuple[Parameter, ...]:
-        """The parameters in their order, with units and meaning."""
-        return _parameters_of(self)
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The names of the parameters, in their order."""
-        return tuple(parameter.name for parameter in self.parameters)
-
-    def stress(self, strain: npt.ArrayLike, parameters: Mapping[str, float]) -> Array:
-        """Return the stress at each strain of a path.
-
-        Parameters
-        ----------
-        strain : array_like, shape (n,)
-            Strain [-], in the order of loading; it runs monotonically from each value to the next,
-            and from 0 to the first.
-        parameters : mapping of str to float
-            A number for each of `names`.
-
-        Returns
-        -------
-        ndarray, shape (n,)
-            In the unit of the parameters that are stresses.
-
-        Raises
-        ------
-        ValueError
-            A strain or a parameter is not finite or makes no sense, or a name is missing or
-            unknown.
-        """
-        found: Array = self._call(strain, parameters, False)
-        return found
-
-    def stress_and_slopes(
-        self, strain: npt.ArrayLike, parameters: Mapping[str, float]
-    ) -> tuple[Array, Array]:
-        """Return the stress, and its derivative by every parameter.
-
-        Exact derivatives of what `stress` computes, in the same pass. Parameters and errors are
-        those of `stress`.
-
-        Returns
-        -------
-        stress : ndarray, shape (n,)
-        slopes : ndarray, shape (n, k)
-            The bounds, in the order of `names`.
-        """
-        stress, slopes = self._call(strain, parameters, True)
-        return stress, slopes
-
-    def driven_by(self, experiments: Any, *, parts: Sequence[Part] | None = None) -> DrivenModel:
-        """Return a model for `identify`: this material along the strains of loops.
+    def driven_by(
+        self: PointType,
+        experiments: Any,
+        *,
+        control: Any = "strain",
+        parts: Sequence[Part] | None = None,
+    ) -> DrivenModel[PointType]:
+        """Return a model for `identify`: this material along the strains or stresses of loops.
 
         Parameters
         ----------
         experiments : array_like of shape (n, 2), or sequence of such
             Strain and stress of each test.
+        control : {"strain", "stress"}, array_like of bool of shape (n,), or a list of these
+            What drives the material: the measured strains, the measured stresses, or, where an
+            array is True, the stresses of these points and the strains of the others. A list has
+            one entry for each test. Under stress control a test may ratchet: compare it by
+            measures such as "area" or "frechet", since a sum of squares needs a common strain.
         parts : sequence of slice or ndarray of int, optional
             For each test the points of the returned curve, such as
             :func:`curvewise.curves.last_cycle`; the whole test drives the material in any case.
@@ -130,13 +54,18 @@ class Material(ABC):
         Raises
         ------
         ValueError
-            If a test does not have two columns.
+            If a test does not have two columns, or `control` is none of these.
         """
-        strains = [
-            strain_and_stress(experiment, f"experiments[{i}]")[:, 0].copy()
+        tests = [
+            strain_and_stress(experiment, f"experiments[{i}]")
             for i, experiment in enumerate(curve_list(experiments))
         ]
-        return DrivenModel(self, tuple(strains), None if parts is None else tuple(parts))
+        return DrivenModel(
+            self,
+            tuple(test[:, 0].copy() for test in tests),
+            None if parts is None else tuple(parts),
+            given_stresses(tests, control),
+        )
 
     def bounds_from(self, experiments: Any) -> Bounds:
         """Return bounds for `identify`, derived from the tests.
@@ -297,92 +226,3 @@ class Material(ABC):
             verdict=tuple(verdict),
         )
         return card_text(content, solver)
-
-    def _call(self, strain: npt.ArrayLike, parameters: Mapping[str, float], slopes: bool) -> Any:
-        path = as_curve(strain, "strain")
-        if path.ndim != 1:
-            raise ValueError(f"strain has shape {path.shape}; give one value per point, shape (n,)")
-        return self._compiled[1](asdict(self), self._values(parameters), path, slopes)
-
-    def _values(self, parameters: Mapping[str, float]) -> Array:
-        """Return the numbers in the order of `names`."""
-        names = self.names
-        if set(parameters) != set(names):
-            wrong = [name for name in parameters if name not in names]
-            missing = [name for name in names if name not in parameters]
-            what = f"has no parameter {wrong[0]!r}" if wrong else f"needs {', '.join(missing)}"
-            raise ValueError(
-                f"{type(self).__name__} {what}{did_you_mean(wrong, names)} "
-                f"(its parameters: {', '.join(names)})"
-            )
-        return np.array([parameters[name] for name in names], dtype=np.float64)
-
-
-@cache  # not within the material: a model that has run must be the same to a store
-def _parameters_of(material: Material) -> tuple[Parameter, ...]:
-    return tuple(Parameter(*row) for row in material._compiled[0](asdict(material)))
-
-
-@dataclass(frozen=True)
-class DrivenModel:
-    """A material along given paths of strain: a model for `identify`, with its slopes.
-
-    Attributes
-    ----------
-    material : Material
-    strains : tuple of ndarray
-        The path of each test.
-    parts : tuple of slice or ndarray of int, or None
-        Which of its points the curve of each test has; None for all.
-    """
-
-    material: Material
-    strains: Sequence[Array]
-    parts: Sequence[Part] | None = None
-
-    def __call__(self, parameters: Mapping[str, float]) -> list[Array]:
-        """Return the curve of each test, shape (n, 2): strain and stress.
-
-        Raises
-        ------
-        OutsideModelError
-            If the material does not have a stress with these parameters, such as Q below -yield.
-        """
-        try:
-            return [
-                np.column_stack((strain, self.material.stress(strain, parameters)))[part]
-                for strain, part in self._paths()
-            ]
-        except ValueError as error:
-            raise OutsideModelError(str(error)) from None
-
-    @property
-    def identity(self) -> str:
-        """The identity of runs in a store: material, paths, and the computing version."""
-        digest = hashlib.sha256(repr(self.parts).encode())
-        for path in (*self.strains, *self._indices()):
-            digest.update(path.tobytes())
-        version = build_info()["version"]
-        return f"{self.material!r}, strains {digest.hexdigest()[:16]}, curvewise {version}"
-
-    def jacobian(self, parameters: Mapping[str, float]) -> list[Array]:
-        """Return for each test the derivatives of its points by every parameter, (n, 2, k).
-
-        In the order in which `parameters` has them.
-        """
-        order = [
-            self.material.names.index(name) for name in parameters if name in self.material.names
-        ]
-        found = []
-        for strain, part in self._paths():
-            slopes = self.material.stress_and_slopes(strain, parameters)[1][part][:, order]
-            found.append(np.stack((np.zeros_like(slopes), slopes), axis=1))
-        return found
-
-    def _indices(self) -> list[npt.NDArray[np.int64]]:
-        """Return the parts that are arrays, which their repr shortens."""
-        return [part for part in self.parts or () if not isinstance(part, slice)]
-
-    def _paths(self) -> Iterator[tuple[Array, Part]]:
-        parts = self.parts or [slice(None)] * len(self.strains)
-        return zip(self.strains, parts, strict=True)

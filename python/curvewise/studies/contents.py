@@ -25,7 +25,7 @@ from .study_model import OutputReader, Picked, StudyModel
 
 __all__ = ["AnyModel", "Contents"]
 
-AnyModel: TypeAlias = StudyModel | DrivenModel
+AnyModel: TypeAlias = StudyModel | DrivenModel[Any]
 
 
 @dataclass(frozen=True)

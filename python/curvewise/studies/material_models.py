@@ -61,7 +61,7 @@ class MaterialModel:
     accept_undetermined: bool = key(keys.flag, False)
     name: str = key(keys.text, "material")
     units: str = key(keys.text, "MPa")
-    driven: DrivenModel | None = None
+    driven: DrivenModel[Material] | None = None
     modulus_read: float = 0.0
     beginning: str = ""
 

@@ -48,8 +48,8 @@ std::vector<__float128> moved_stress(const Material& material, const std::vector
     curvewise::runtime::Poller poller(nullptr);
     std::vector<__float128> found;
     curvewise::materials::walk<Point<Quad>>(
-        material, parameters.data(), parameters.size(), strain.data(),
-        static_cast<std::ptrdiff_t>(strain.size()), poller,
+        material, parameters.data(), parameters.size(), std::numeric_limits<double>::max(),
+        strain.data(), static_cast<std::ptrdiff_t>(strain.size()), poller,
         [&](std::ptrdiff_t, const Quad& stress) { found.push_back(stress.value); });
     return found;
 }

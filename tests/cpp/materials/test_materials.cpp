@@ -2,6 +2,7 @@
 // and errors.
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 namespace {
 
 using curvewise::ChabocheVoce;
+using curvewise::material_response;
 using curvewise::material_stress;
 using curvewise::Modulus;
 using curvewise::YoshidaUemori;
@@ -241,9 +243,58 @@ void test_parameters_of_no_metal() {
 
 }  // namespace
 
+// Random points give the stress of a loop, the others its strain.
+template <class Material>
+void check_response(const Material& material) {
+    test::Generator generator(11);
+    for (int set = 0; set < 20; ++set) {
+        const std::vector<double> parameters = test::random_parameters(generator, material);
+        const std::vector<double> strain = test::loop({0.021, -0.019, 0.017}, 61);
+        const std::vector<double> stress = stress_of(material, parameters, strain);
+        const std::size_t n = strain.size(), k = parameters.size();
+        const auto by_stress = std::make_unique<bool[]>(n);
+        std::vector<double> given = strain, answer(n), again(n), slopes(n * k);
+        for (std::size_t i = 0; i < n; ++i) {
+            by_stress[i] = test::between(generator, 0.0, 1.0) < 0.5;
+            if (by_stress[i]) given[i] = stress[i];
+        }
+        const auto count = static_cast<std::ptrdiff_t>(n);
+        material_response(material, parameters.data(), given.data(), by_stress.get(), count,
+                          answer.data());
+        material_response(material, parameters.data(), given.data(), by_stress.get(), count,
+                          again.data(), slopes.data());
+        CHECK_EQUAL(answer, again);
+        std::vector<double> path = strain;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (by_stress[i]) path[i] = answer[i];
+        }
+        const std::vector<double> reached = stress_of(material, parameters, path);
+        for (std::size_t i = 0; i < n; ++i) {
+            const double wanted = by_stress[i] ? stress[i] : answer[i];
+            CHECK(std::abs(reached[i] - wanted) <= 1e-9 * std::abs(stress.back()) + 1e-9);
+        }
+    }
+}
+
+void test_control_by_stress() {
+    check_response(ChabocheVoce{});
+    check_response(ChabocheVoce{3, Modulus::decaying});  // twelve parameters: two passes
+    check_response(YoshidaUemori{});
+    const std::vector<double> ideal{200e3, 300.0, 0.0, 0.0};
+    const double given[] = {200.0, 400.0};
+    const bool by_stress[] = {true, true};
+    double answer[2];
+    CHECK_THROWS(
+        material_response(ChabocheVoce{0}, ideal.data(), given, by_stress, 2, answer),
+        std::invalid_argument,
+        "the material does not reach stress[1] = 400 with these parameters; hardening ends at "
+        "300");
+}
+
 int main() {
     return check::run({{"against a textbook", test_against_a_textbook},
                        {"slopes", test_slopes},
+                       {"control by stress", test_control_by_stress},
                        {"known values", test_known_values},
                        {"a decaying modulus", test_a_decaying_modulus},
                        {"a held strain", test_a_held_strain},

@@ -33,7 +33,7 @@ OPTIONAL = (
     *("movingpandas", "xarray", "zarr"),
 )
 # Examples of the gallery that take seconds: they run where the site is built.
-SLOW = {"plot_identification", "plot_million_points", "plot_two_tests"}
+SLOW = {"plot_identification", "plot_million_points", "plot_ratcheting", "plot_two_tests"}
 PYTHON = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 # What the Python before it prints, where a page shows it.
 PRINTED = re.compile(r"\n\n```text\n(.*?)^```$", re.MULTILINE | re.DOTALL)
