@@ -38,11 +38,13 @@ uncertainty = found.uncertainty()
 print(uncertainty)
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), width_ratios=(2, 1))
-left.plot(100 * test[:, 0], test[:, 1], ".", markersize=2, label="test")
-left.plot(100 * found.simulations[0][:, 0], found.simulations[0][:, 1], label="fitted material")
+left.plot(100 * test[:, 0], test[:, 1], ".", markersize=3, zorder=3, label="test")
+left.plot(
+    100 * found.simulations[0][:, 0], found.simulations[0][:, 1], lw=0.8, label="fitted material"
+)
 left.set(xlabel="strain [%]", ylabel="stress [MPa]")
 left.legend(loc="lower right")
-peaks = np.arange(23, len(test), 48)
+peaks = np.arange(23, 48 * 20, 48)
 right.plot(100 * test[peaks, 0], "o", markersize=4)
 right.plot(100 * found.simulations[0][peaks, 0])
 right.set(xlabel="cycle", ylabel="strain at the largest stress [%]")

@@ -309,12 +309,10 @@ class Objective:
         """Differences of the value below this do not count."""
         return _NEGLIGIBLE * float(self.weights @ self.scales)
 
-    def fitted(self, simulations: Any) -> list[Array] | None:
-        """Return the experiments with the simulated y, where y is compared at a common x."""
-        if not self.is_least_squares:
-            return None
+    def fitted(self, simulations: Any) -> list[Array | None]:
+        """Return each experiment with the simulated y; None if y is not compared at a common x."""
         pairs = zip(self._terms, self._matched(simulations), strict=True)
-        return [term.fitted(simulation) for term, simulation in pairs]
+        return [term.fitted(one) if term.is_least_squares else None for term, one in pairs]
 
     def of_other_tests(self, experiments: Sequence[Array]) -> Objective:
         """Return the same objective of other experiments, one for each."""

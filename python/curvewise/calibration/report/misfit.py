@@ -2,7 +2,7 @@
 
 By "sum_of_squares" the deviation of a measured point is its y minus that of the simulation at the
 same x, on the branch that a warping path of the scaled curves assigns to the point
-(`uncertainty.fitted_points`). Other measures do not compare at the same x, where a steep branch
+(`branches`). Other measures do not compare at the same x, where a steep branch
 turns the least noise in x into a large difference in y. By these the deviation is the distance to
 the nearest point of the simulation around the assigned one, x scaled by the ratio of the test's
 extents in y and x. The root mean square over the test's points is the distance of model and test.
@@ -22,8 +22,7 @@ import numpy as np
 
 from ...curves.inputs import Array
 from ...measures import normalize
-from ..uncertainty.directions import at_places, feet_of
-from ..uncertainty.fitted_points import matched_places
+from ..uncertainty.directions import at_places, feet_of, matched_places
 from .shown_search import Loop
 
 __all__ = ["SCATTERED", "SYSTEMATIC", "Misfit", "misfit_of", "scatter_share"]

@@ -16,8 +16,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ...curves.inputs import Array
+from ...measures import dtw_path, normalize
 from ..objective.objective import Objective
-from .fitted_points import fitted_points, matched_places, reach_of
 
 __all__ = [
     "Directions",
@@ -26,11 +26,13 @@ __all__ = [
     "directions_of",
     "feet_of",
     "fitted_tests",
+    "matched_places",
 ]
 
 Places: TypeAlias = npt.NDArray[np.intp]
 
 _PAIRED = 0.8  # the least part of the points that a path matches with those of the same number
+_REACH = 0.05  # how far from the matched point, as a fraction of the curve's points
 _STILL = 1e-9  # of the longest step: a shorter step of a curve does not define a direction
 
 
@@ -104,7 +106,8 @@ def fitted_tests(
     for index, (test, curve) in enumerate(zip(objective.experiments, curves, strict=True)):
         scale = _scale(objective, index, curve)
         if scale is None:
-            points = fitted_points(test, curve) if known is None else known[index]
+            given = known[index]
+            points = _fitted_along_y(test, curve) if given is None else given
             directions = _along_y(objective, index, len(test))
             yield points, directions, directions.across(test - points), None
         else:
@@ -113,6 +116,15 @@ def fitted_tests(
             directions = directions_of(objective, index, curve, feet)
             residuals = directions.across(test - at_places(curve, feet))
             yield at_places(curve, places), directions, residuals, _pairs(test, curve, places)
+
+
+def _fitted_along_y(test: Array, curve: Array) -> Array:
+    """Return a test with the last coordinate of the curve where a warping path has its points."""
+    if len(test) == 1:
+        return curve[:1].copy()
+    fitted = test.copy()
+    fitted[:, -1] = at_places(curve, matched_places(test, curve))[:, -1]
+    return fitted
 
 
 def _pairs(test: Array, curve: Array, places: Array) -> Array | None:
@@ -148,7 +160,7 @@ def feet_of(P: Array, Q: Array, places: Array) -> Array:
     """Return the places of the points of Q nearest to those of P, downhill from places along Q."""
     step = np.minimum(places.astype(np.intp), len(Q) - 2)
     squares, fractions = _projected(P, Q, step)
-    for _ in range(reach_of(Q)):
+    for _ in range(_reach_of(Q)):
         ahead = np.where(fractions == 1.0, 1, np.where(fractions == 0.0, -1, 0))
         there = np.clip(step + ahead, 0, len(Q) - 2)
         others, at = _projected(P, Q, there)
@@ -167,3 +179,15 @@ def _projected(P: Array, Q: Array, step: Places) -> tuple[Array, Array]:
     fractions = np.clip((along * off).sum(axis=1) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
     squares: Array = ((off - fractions[:, np.newaxis] * along) ** 2).sum(axis=1)
     return squares, fractions
+
+
+def matched_places(P: Array, Q: Array) -> Array:
+    """Return where along Q, in its points, a warping path has each point of P."""
+    i, j = dtw_path(*normalize(P, Q)).path.T
+    places: Array = np.bincount(i, weights=j) / np.bincount(i)
+    return places
+
+
+def _reach_of(Q: Array) -> int:
+    """Return how many points of Q from the matched one the fitted one may be."""
+    return max(2, round(_REACH * len(Q)))

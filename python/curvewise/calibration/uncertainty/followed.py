@@ -34,12 +34,11 @@ from dataclasses import replace
 import numpy as np
 
 from ...curves.inputs import Array
-from ...curves.several_curves import points_of
 from ..problem.simulator import Simulator
 from ..surfaces.surfaces import Surfaces
 from .estimate import Estimate, estimate_of
 from .noise import Noise
-from .sensitivity import Optimum
+from .sensitivity import Optimum, vectors_at
 from .spread import Spread, spread_of
 
 __all__ = ["End", "followed_spread"]
@@ -95,21 +94,14 @@ def _follow(ends: Sequence[End], optimum: Optimum, estimate: Estimate) -> int:
 
 def _run(optimum: Optimum, simulator: Simulator, places: Sequence[Array]) -> list[Optimum | None]:
     """Return curves and slopes at places; None where a run fails."""
-    problem, space = optimum.problem, optimum.problem.space
-    outcomes = dict(simulator.run([space.dictionary(space.point(place)) for place in places]))
     found: list[Optimum | None] = []
-    for i, place in enumerate(places):
-        simulations = outcomes[i].simulations
-        if outcomes[i].message or problem.objective.predicted(simulations).failures:
-            found.append(None)
-            continue
-        base = optimum.responses.vector(points_of(simulations))
-        slopes = optimum.responses.slopes(problem.slopes(place))
-        if slopes is None:  # of another number of points than the fitted curves
+    problem, responses = optimum.problem, optimum.responses
+    for place, base in zip(places, vectors_at(problem, responses, simulator, places), strict=True):
+        slopes = None if base is None else responses.slopes(problem.slopes(place))
+        if base is None or slopes is None:  # of another number of points than the fitted curves
             found.append(None)
         else:
-            surfaces = Surfaces(place, base, slopes)
-            found.append(replace(optimum, unit=place, surfaces=surfaces))
+            found.append(replace(optimum, unit=place, surfaces=Surfaces(place, base, slopes)))
     return found
 
 

@@ -9,7 +9,7 @@ P. R. Bevington, "Data reduction and error analysis for the physical sciences", 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,10 +18,11 @@ from ...curves.inputs import Array
 from ...curves.several_curves import points_of
 from ..problem.execution import Execution
 from ..problem.problem import Problem
+from ..problem.simulator import Simulator
 from ..surfaces.nearby_runs import NearbyRuns, Run, narrowest, runs_near
 from ..surfaces.surfaces import Responses, Surfaces
 
-__all__ = ["Optimum", "design_runs", "moves_of", "optimum_surfaces", "sensitivity_of"]
+__all__ = ["Optimum", "design_runs", "moves_of", "optimum_surfaces", "sensitivity_of", "vectors_at"]
 
 _NEAR = 0.1  # runs further away than this fraction of the bounds' range are not looked at
 _STEP = 0.02  # runs nearer than this count alike; the step of fresh runs
@@ -126,14 +127,8 @@ def _differences(
     """Return slopes by central differences; to one side at a bound and where a run fails."""
     k = unit.size
     places = np.clip(np.vstack((unit + _STEP * np.eye(k), unit - _STEP * np.eye(k))), 0.0, 1.0)
-    parameters = [problem.space.dictionary(problem.space.point(place)) for place in places]
     with execution.simulator(problem.model) as simulator:
-        outcomes = dict(simulator.run(parameters))
-    vectors: list[Array | None] = []
-    for i in range(2 * k):
-        simulations = outcomes[i].simulations
-        failed = outcomes[i].message or problem.objective.predicted(simulations).failures
-        vectors.append(None if failed else responses.vector(points_of(simulations)))
+        vectors = vectors_at(problem, responses, simulator, places)
     slopes = np.zeros((base.size, k))
     for i in range(k):
         ends = [(places[j, i], vectors[j] if places[j, i] != unit[i] else base) for j in (i, i + k)]
@@ -142,6 +137,19 @@ def _differences(
         if a != b:
             slopes[:, i] = (high - low) / (a - b)
     return slopes
+
+
+def vectors_at(
+    problem: Problem, responses: Responses, simulator: Simulator, places: Iterable[Array]
+) -> list[Array | None]:
+    """Return the vector of the curves at each place; None where a run fails."""
+    space, predicted = problem.space, problem.objective.predicted
+    outcomes = dict(simulator.run([space.dictionary(space.point(place)) for place in places]))
+    vectors: list[Array | None] = []
+    for _, (simulations, message, *_) in sorted(outcomes.items()):
+        failed = message or predicted(simulations).failures
+        vectors.append(None if failed else responses.vector(points_of(simulations)))
+    return vectors
 
 
 def sensitivity_of(optimum: Optimum) -> tuple[Array, Array]:
