@@ -90,7 +90,7 @@ KERNELS = (
 )
 MODEL = (HERE / "problems.py",)
 MATERIAL = (
-    PACKAGE / "materials" / "material.py",
+    PACKAGE / "materials" / "point.py",
     PACKAGE / "materials" / "yoshida_uemori.py",
     CPP / "src" / "materials" / "dual.hpp",
     CPP / "src" / "materials" / "flow_series.hpp",
