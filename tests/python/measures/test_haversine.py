@@ -63,7 +63,7 @@ def distance(p: tuple[float, float], q: tuple[float, float], **options: Any) -> 
     return curvewise.dtw([p], [q], **SPHERE, **options)
 
 
-# The claims of docs/reference/measures/step_patterns.md: a distance in metres, and the largest
+# The claims of docs/reference/measures/haversine.md: a distance in metres, and the largest
 # error up to it.
 ERRORS = ((5e6, 4e-9), (1.5e7, 16e-9), (1.99e7, 0.5e-6), (math.inf, 0.4))
 

@@ -64,7 +64,7 @@ def test_what_offsets_of_pcm_may_miss() -> None:
 
 
 def test_the_ellipsoid_of_the_earth_is_within_6_parts_in_1000_of_the_sphere() -> None:
-    """measures/step_patterns.md: by the radii of curvature of WGS 84, north and east."""
+    """measures/haversine.md: by the radii of curvature of WGS 84, north and east."""
     equator, flattening = 6378137.0, 1 / 298.257223563
     square = flattening * (2 - flattening)
     up = np.radians(np.linspace(0, 90, 91))
