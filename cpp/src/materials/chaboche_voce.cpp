@@ -50,12 +50,12 @@ std::vector<MaterialParameter> material_parameters(const ChabocheVoce& material)
     std::vector<MaterialParameter> parameters = materials::modulus_parameters(material.modulus);
     parameters.push_back({"yield", "stress", "initial yield stress"});
     parameters.push_back(
-        {"Q", "stress", "what the yield stress grows by, or shrinks where negative"});
-    parameters.push_back({"b", "-", "rate of that with the plastic strain"});
+        {"Q", "stress", "final increase of the yield stress; negative: softening"});
+    parameters.push_back({"b", "-", "rate of this increase with the plastic strain"});
     for (int k = 1; k <= material.backstresses; ++k) {
         const std::string number = std::to_string(k);
         parameters.push_back({"C" + number, "stress", "initial modulus of back stress " + number});
-        parameters.push_back({"gamma" + number, "-", "its recall; it saturates at C / gamma"});
+        parameters.push_back({"gamma" + number, "-", "recall of back stress " + number + ", which saturates at C / gamma"});
     }
     return parameters;
 }

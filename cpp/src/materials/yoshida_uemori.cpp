@@ -62,13 +62,13 @@ std::vector<MaterialParameter> material_parameters(const YoshidaUemori& material
     parameters.push_back({"Y", "stress", "size of the yield surface"});
     parameters.push_back({"C", "-", "rate of the yield surface's motion"});
     parameters.push_back({"K", "-", "rate of the bounding surface's motion and growth"});
-    parameters.push_back({"RSAT", "stress", "what the bounding surface grows by"});
-    parameters.push_back({"SB", "stress", "what its centre moves by at most"});
+    parameters.push_back({"RSAT", "stress", "final growth of the bounding surface"});
+    parameters.push_back({"SB", "stress", "limit of the motion of the bounding surface's centre"});
     parameters.push_back({"H", "-", "share of growth in the stagnation surface's motion"});
     if (material.growth == BoundGrowth::power) {
         parameters[parameters.size() - 3].meaning = "factor of the bounding surface's growth";
         parameters.push_back({"C1", "-", "plastic strain at which the power law of growth begins"});
-        parameters.push_back({"C2", "-", "its exponent"});
+        parameters.push_back({"C2", "-", "exponent of the power law of growth"});
     }
     return parameters;
 }

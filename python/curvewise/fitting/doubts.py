@@ -159,8 +159,8 @@ def _of_modulus(found: Identification, modulus_read: float) -> list[Doubt]:
         Doubt(
             ("E",),
             f"it is {abs(share):.0f} % {'above' if share > 0 else 'below'} "
-            f"{digits(modulus_read, 4)}, the slope with which the tests unload. The fit makes up "
-            "by it for what the material cannot follow. Give E where it is known (--fix E=206e3).",
+            f"{digits(modulus_read, 4)}, the unloading slope of the tests. E compensates for an "
+            "effect that the model does not have. If you know E, fix it (--fix E=206e3).",
         )
     ]
 

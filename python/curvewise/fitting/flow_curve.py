@@ -124,7 +124,7 @@ class FlowCurve(Result):
             f"{digits(self.modulus, 4)} {unit}, yield stress {digits(self.stress[0], 4)} {unit} at "
             f"a plastic strain of {self.offset:g}",
             self.left_out,
-            f"beyond {last:.4g} the laws are a choice, not a measurement",
+            f"beyond {last:.4g} the laws extrapolate; the test has no points there",
         ]
         return [Table(rows, header), "\n".join(filter(None, lines))]
 

@@ -199,8 +199,9 @@ def prepare(
         points = engineering_to_true(points)
         e, s = np.abs(points).max(axis=0)
         steps.append(
-            f"true: engineering values are true ones; the largest strain {largest[0]:.4g} is "
-            f"{e:.4g}, the largest stress {largest[1]:.4g} is {s:.4g} {units}"
+            "true: engineering values are converted to true values; the largest strain changes from "
+            f"{largest[0]:.4g} to {e:.4g}, the largest stress from {largest[1]:.4g} to {s:.4g} "
+            f"{units}"
         )
     if numbers is not None:
         steps.append(said_of_cycles(numbers))

@@ -221,7 +221,7 @@ def test_steps_that_gain_nothing_of_what_is_promised_are_no_end():
 
     found = identify(jumping, TEST, BOUNDS, method=LeastSquares(starts=1), **SQUARES)
     assert not found.converged
-    assert "steps do not gain what the surrogate promises" in found.message
+    assert "steps improve less than the surrogate predicts" in found.message
 
 
 def test_auto_takes_it_for_sums_of_squares_alone():

@@ -64,7 +64,7 @@ def test_a_linear_model_has_the_errors_of_least_squares(sigma):
     assert set(uncertainty.bias.values()) == {0.0}
     step = list(uncertainty.weakest_direction.values())
     move = np.sqrt(np.mean((DESIGN @ step / np.ptp(TEST[:, 1])) ** 2) / 2)  # of x and y
-    said = re.search(r"the loops move by (\S+) % of their size$", uncertainty.in_words)
+    said = re.search(r"the loops change by (\S+) % of their size$", uncertainty.in_words)
     assert float(said[1]) == pytest.approx(100.0 * move, rel=0.06)  # has two digits
 
 
@@ -151,7 +151,7 @@ def test_three_parameters_of_a_loop_are_determined():
     assert "\nSearch: converged. All 3 starts agree" in str(found)
     uncertainty = found.uncertainty()
     assert uncertainty.determined == dict.fromkeys(THREE, True)
-    assert "all are determined" in str(uncertainty)
+    assert "all parameters are determined" in str(uncertainty)
     assert uncertainty.sensitivities.shape == (1, 3)
     for name, (low, high) in uncertainty.intervals.items():
         assert low <= truth[name] <= high
@@ -176,7 +176,7 @@ def test_parameters_that_only_act_together_are_not_determined():
         assert re.search(r"Do not use C \([^)]+\) and C2 \([^)]+\): the tests", str(found))
         low, high = found.uncertainty().intervals["C"]
         assert high > 1.5 * low
-        assert "They hardly show this change: " in str(found)
+        assert "They are not sensitive to this change: " in str(found)
         assert found.verdict.usable == found.determined
         uncertainty = found.uncertainty(samples=20)
         assert uncertainty.determined == {"E": True, "C": False, "C2": False}
@@ -299,7 +299,7 @@ def test_a_bias_is_measured_and_said():
         biased = identify(hardening, test, THREE, measure="curve_length", **keywords)
     uncertainty = biased.uncertainty(samples=60, sigma=5.0)
     assert uncertainty.bias["yield"] > 0.25 * uncertainty.standard_errors["yield"]
-    assert "in the mean; intervals allow for it in part only" in str(uncertainty)
+    assert "; the intervals include only a part of it" in str(uncertainty)
     assert "curve_length takes noise for length: filter the test" in str(uncertainty)
     fair = identify(hardening, test, THREE, measure="dtw", **keywords)
     uncertainty = fair.uncertainty(samples=60, sigma=5.0)

@@ -125,7 +125,7 @@ def test_comments_say_what_the_card_is() -> None:
     )
     assert "// curvewise card for MFront: DP780\n" in card
     assert "fitted 2026-11-23\n// source: TFEL/MFront, " in card
-    assert "// Q = -50.0 ksi (-60.0 to -40.0): what the yield stress" in card
+    assert "// Q = -50.0 ksi (-60.0 to -40.0): final increase of the yield stress" in card
     assert "// b = 8.0: rate" in card
     assert "// Poisson's ratio 0.3 is given, not fitted\n" in card
 

@@ -50,7 +50,7 @@ def test_the_study_finds_what_fit_finds_and_writes_the_same_files(tmp_path: Path
     assert main(["identify", str(file)]) == 0
     printed = capsys.readouterr()
     assert "evaluated" not in printed.err  # a line for each batch is for solvers
-    assert "not determined:" in printed.out or "all are determined" in printed.out
+    assert "not determined:" in printed.out or "all parameters are determined" in printed.out
     fit = fitted(fixed={"E": 200e3})
     fit.write(tmp_path / "fit")
     results = tmp_path / "study_results"

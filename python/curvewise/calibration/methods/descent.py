@@ -297,10 +297,10 @@ class Descent:
             own = f"; the model's own noise is about {100.0 * self._noise.of_curves:.2g} %"
         if promised <= least:
             within = "" if radius >= 1.0 else f" within {100.0 * radius:.3g} % of the bounds' range"
-            message = f"the surrogate promises to gain less than {least:.2g}{within}"
+            message = f"the surrogate predicts an improvement below {least:.2g}{within}"
             return Finish(True, f"{message}{own}")
         region = f"the region is below {self._rules.tol:g} of the bounds' range"
         noise = min(2.0 * self._noise.of_value, NOISIEST * self.value)
         if promised <= max(_PROMISING * self.value, noise):
             return Finish(True, f"{region}{own}")
-        return Finish(False, f"{region}, and steps do not gain what the surrogate promises{own}")
+        return Finish(False, f"{region}, and steps improve less than the surrogate predicts{own}")

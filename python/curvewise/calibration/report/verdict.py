@@ -194,8 +194,8 @@ def _undetermined(search: ShownSearch, summary: Mapping[str, Any], left: list[st
     if loose := [f"{name}{_range(summary, name)}" for name in left if name not in bounded]:
         lines.append(
             f"Do not use {_listed(loose)}: the tests do not determine "
-            f"{'them' if len(loose) > 1 else 'it'}. They hardly show this change: "
-            f"{summary['in_words']}. Add a test in which it shows."
+            f"{'them' if len(loose) > 1 else 'it'}. They are not sensitive to this change: "
+            f"{summary['in_words']}. Add a test that is sensitive to it."
         )
     return lines
 

@@ -142,7 +142,7 @@ class Uncertainty(Result):
         extents = self.optimum.problem.objective.extents
         pairs = zip(self.optimum.curves(self.optimum.unit), self.moved[0], extents, strict=True)
         move = max(float(np.sqrt((((new - old) / size) ** 2).mean())) for old, new, size in pairs)
-        return f"{listed}: the loops move by {100.0 * move:.2g} % of their size"
+        return f"{listed}: the loops change by {100.0 * move:.2g} % of their size"
 
     picture_shows = "Intervals, correlations, and the weakest direction"
 
@@ -152,20 +152,21 @@ class Uncertainty(Result):
         space = self.optimum.problem.space
         table = parameter_table(space, searched, spread=vars(self), with_bounds=False)
         noise = ", ".join(f"{sigma:.3g}" for sigma in self.sigma)
-        how = f"{self.samples} draws of it" if self.samples else "sensitivities"
+        how = f"{self.samples} bootstrap replicates" if self.samples else "sensitivities"
         lines = [
-            f"measure {self.measure}, standard deviation {noise} of the residuals, by {how}, "
-            f"{self.runs} runs of the model"
+            f"measure {self.measure}, standard deviation {noise} of the residuals, "
+            f"intervals from {how}, {self.runs} runs of the model"
         ]
         if self.is_rough:
             lines.append(
-                f"of {self.measure} sensitivities are a rough guide: samples=1000 draws the noise"
+                f"intervals of {self.measure} from sensitivities are rough: pass samples=1000 "
+                "for a bootstrap"
             )
         undetermined = [name for name, good in self.determined.items() if not good]
         lines.append(
             f"not determined: {', '.join(undetermined)}"
             if undetermined
-            else "by these intervals all are determined"
+            else "all parameters are determined"
         )
         if self.at_limits:
             lines.append(
@@ -177,7 +178,7 @@ class Uncertainty(Result):
         lines.append(f"weakest direction: {self.in_words}")
         if moved := self._biased():
             lines.append(
-                f"noise like this moves {moved} in the mean; intervals allow for it in part only"
+                f"bias due to noise of this size: {moved}; the intervals include only a part of it"
             )
             if advice := advice_against_noise(self.optimum.problem.objective.measures):
                 lines.append(advice)
@@ -186,7 +187,7 @@ class Uncertainty(Result):
     def _biased(self) -> str:
         """Return a description of the parameters with a considerable bias."""
         return ", ".join(
-            f"{name} by {self.bias[name]:+.2g}"
+            f"{name} {self.bias[name]:+.2g}"
             for name, error in self.standard_errors.items()
             if abs(self.bias[name]) > _HARMLESS_BIAS * error
         )
