@@ -221,9 +221,9 @@ def _obstacle(ends: Sequence[End], best: End, negligible: float) -> tuple[str, s
     """Return why agreement says nothing here, for those who know the method and for others."""
     if is_flat(ends, negligible):
         return (
-            f"several places have the best value: the measure {_TRY}",
-            "several places have the same best value, since the measure does not tell them apart; "
-            "compare by another measure",
+            f"several parameter sets have the best value: the measure {_TRY}",
+            "several parameter sets have the same best value, because the measure does not "
+            "distinguish them; use another measure",
         )
     if best.value == best.first and best.value > _nothing(ends, negligible):
         return (

@@ -53,7 +53,7 @@ def summary_of_record(record: SearchRecord) -> tuple[dict[str, Any] | None, str]
     if ending.unit is None or ending.slopes is None:
         return None, (
             f"Intervals take {2 * len(record.names)} more runs of the model, since the search has "
-            "left too few near the optimum: found.uncertainty() makes them."
+            "left too few near the optimum: call found.uncertainty()."
         )
     if record.details["has_function"]:
         return None, (

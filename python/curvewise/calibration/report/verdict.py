@@ -136,7 +136,7 @@ def _parameters(search: ShownSearch, usable: Mapping[str, bool]) -> list[str]:
         return []
     if summary is None:
         return [
-            f"Parameters: which of them the tests determine is not known. {search.reason}",
+            f"Parameters: it is not known which of them the tests determine. {search.reason}",
             *(f"Do not use {_listed(doubt.names)}: {doubt.sentence}" for doubt in ending.doubts),
         ]
     values = search.parameters
