@@ -199,8 +199,8 @@ def prepare(
         points = engineering_to_true(points)
         e, s = np.abs(points).max(axis=0)
         steps.append(
-            "true: engineering values are converted to true values; the largest strain changes from "
-            f"{largest[0]:.4g} to {e:.4g}, the largest stress from {largest[1]:.4g} to {s:.4g} "
+            "true: engineering values are converted to true values; the largest strain "
+            f"changes from {largest[0]:.4g} to {e:.4g}, the largest stress from {largest[1]:.4g} to {s:.4g} "
             f"{units}"
         )
     if numbers is not None:
