@@ -200,8 +200,8 @@ def prepare(
         e, s = np.abs(points).max(axis=0)
         steps.append(
             "true: engineering values are converted to true values; the largest strain "
-            f"changes from {largest[0]:.4g} to {e:.4g}, the largest stress from {largest[1]:.4g} to {s:.4g} "
-            f"{units}"
+            f"changes from {largest[0]:.4g} to {e:.4g}, the largest stress from "
+            f"{largest[1]:.4g} to {s:.4g} {units}"
         )
     if numbers is not None:
         steps.append(said_of_cycles(numbers))
