@@ -55,7 +55,9 @@ std::vector<MaterialParameter> material_parameters(const ChabocheVoce& material)
     for (int k = 1; k <= material.backstresses; ++k) {
         const std::string number = std::to_string(k);
         parameters.push_back({"C" + number, "stress", "initial modulus of back stress " + number});
-        parameters.push_back({"gamma" + number, "-", "recall of back stress " + number + ", which saturates at C / gamma"});
+        parameters.push_back(
+            {"gamma" + number, "-",
+             "recall of back stress " + number + ", which saturates at C / gamma"});
     }
     return parameters;
 }
