@@ -43,36 +43,36 @@ metric : {listed(get_args(Metric))}
 {_ORDER_AND_RADIUS}""",
     "ground": f"""\
 metric : {listed(get_args(Metric))}, array_like of shape (n, m), or callable
-    The ground distance between points. "haversine" is the distance along the great circle, for
-    points (longitude, latitude) in degrees. A user-defined distance is an array of the distances of
-    all points of P and Q, or a function. The function receives some points of each curve, of shapes
-    (p, d) and (q, d), and returns their distances, of shape (p, q). Distances are at least 0; inf
-    forbids a pair.
+    The ground distance between points; "euclidean" by default. "haversine" is the distance along
+    the great circle, for points (longitude, latitude) in degrees. A user-defined distance is an
+    array of the distances of all points of P and Q, or a function. The function receives some
+    points of each curve, of shapes (p, d) and (q, d), and returns their distances, of shape (p, q).
+    Distances are at least 0; inf forbids a pair.
 {_ORDER_AND_RADIUS}""",
     "workers": """\
-workers : int
+workers : int, default 1
     Number of threads: at least 1, or -1 for one per core. The result does not change.""",
     "layout": """\
 layout : {"channels_first", "channels_last"}, optional
     Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
     rows. The default is rows, with a LayoutWarning if there are more coordinates than points.""",
     "prune": """\
-prune : bool
+prune : bool, default True
     Whether to skip table cells that cannot affect the result. The result does not change.""",
     "cutoff": """\
 cutoff : float >= 0, optional
     Upper limit: return inf for distances above it, which takes less time.""",
     "missing": """\
-missing : {"refuse", "skip"}
+missing : {"refuse", "skip"}, default "refuse"
     Whether points with a nan raise an error, or are skipped with a warning of how many.""",
     "closed": """\
-closed : bool
+closed : bool, default False
     Whether both curves are closed, so that their first points do not matter. See Notes.""",
     "closed_notes": """\
 ``closed=True``: the first point of a closed curve is arbitrary, and a last point that equals it
-only closes the curve. A walk goes once around both curves by steps of one point of either or of
-both, and returns to its first pair, which counts once. The value is that of the best walk: the
-least of all values over all first points of P and of Q.""",
+only closes the curve. A path goes once around both curves by steps of one point of either or of
+both, and returns to its first pair, which counts once. The value is the smallest over all first
+points of P and of Q.""",
     "invalid": """\
 ValueError
     If a curve is not finite or empty, the curves differ in d, or an option is unknown or out of

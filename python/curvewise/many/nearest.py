@@ -59,7 +59,7 @@ class Index:
     measure : {measures}
         A measure by its name. A query curve is P, a curve of the index is Q.
     {layout}
-        It applies to all curves that are added or queried, too.
+        Curves that are added or queried later have the same layout.
     **options
         Options of the measure's own function, except ``workers`` and ``cutoff``.
 
@@ -72,19 +72,21 @@ class Index:
     TypeError
         If a curve does not hold real numbers, or the measure does not have an option.
 
+    See Also
+    --------
+    cdist : All distances.
+    subsequence : The best parts of a long record.
+
     Notes
     -----
-    Lower bounds exist for dtw, frechet and frechet_continuous. They use the distances of the
-    curves' ends and the distance between their bounding boxes. They also use the sum (or the
-    maximum) of the distances of each curve's points to boxes around sections of the other. Curves
-    are processed in the order of their bounds. Only those whose bound is at most the k-th best
-    distance so far are computed, up to that cutoff. See Seidl & Kriegel, "Optimal multi-step
-    k-nearest neighbor search", 1998. With a window the bound is that of Keogh & Ratanamahatana
-    (2005), with several boxes instead of one. The savings depend on the curves: nearly everything
-    if they form groups, nothing if all are equally distant. The other measures, and dtw and frechet
-    with "minkowski", compute every pair. Memory: at most 1.5 times that of the points in float64
-    for curves of at least 128 numbers, and little more than once for at least 1,000. It is about
-    twice for frechet_continuous, and three times for "haversine".
+    Curves are processed in the order of lower bounds of their distances. Only those whose bound is
+    at most the k-th best distance so far are computed, up to that cutoff. See Seidl & Kriegel,
+    "Optimal multi-step k-nearest neighbor search", 1998, and Keogh & Ratanamahatana (2005). The
+    index computes few distances if the curves form groups, and all if they are equally distant.
+    Lower bounds exist for dtw, frechet and frechet_continuous. The other measures, and dtw and
+    frechet with "minkowski", compute every pair. Memory: at most 1.5 times that of the points in
+    float64 for curves of at least 128 numbers, and little more than once for at least 1,000. It is
+    about twice for frechet_continuous, and three times for "haversine".
 
     Examples
     --------

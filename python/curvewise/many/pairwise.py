@@ -135,8 +135,8 @@ def cdist(
     measure : {measures} or callable
         A measure by its name (see :func:`available_measures`), or a function of two curves that
         returns a float. A callable runs in this thread, holding the GIL, pair by pair: `workers` is
-        ignored, and all pairs are computed. The same holds for dtw and frechet with ``closed=True``
-        or a callable `metric` (a matrix belongs to one pair, and is refused).
+        ignored, and all pairs are computed. `workers` is also ignored for dtw and frechet with
+        ``closed=True`` or a callable `metric`. A matrix as `metric` raises an error.
     out : ndarray of float64, shape (k, l), C-contiguous, optional
         Array for the result.
     {workers}
@@ -155,8 +155,9 @@ def cdist(
     Returns
     -------
     ndarray, shape (k, l), or DataFrame
-        `out`, if given. Entry (i, j) is bitwise identical to ``measure(XA[i], XB[j], **options)``.
-        If XA or XB have labels, a DataFrame with them as its index and columns.
+        The distances; `out` itself if it is given. Entry (i, j) is bitwise identical to
+        ``measure(XA[i], XB[j], **options)``. If XA or XB have labels, a DataFrame with them as its
+        index and columns.
 
     Raises
     ------
@@ -169,6 +170,11 @@ def cdist(
     ImportError
         If ``progress=True`` and tqdm is missing: ``pip install "curvewise[progress]"``. If curves
         have labels and pandas is missing: ``pip install "curvewise[curves]"``.
+
+    See Also
+    --------
+    pdist : Distances between all pairs of one list, condensed.
+    Index : Nearest curves without all distances.
 
     Notes
     -----

@@ -50,30 +50,30 @@ def dtw(
     ----------
     {curves}
     {ground}
-    step_pattern : str or StepPattern
-        "symmetric2" counts a diagonal step twice; it is R's default, which the paper's tables use.
-        The others of R's dtw are "asymmetric", "symmetricP0", "symmetricP05", "symmetricP1",
-        "symmetricP2", the same four as "asymmetricP0" and so on, "typeIa" to "typeId", "typeIas" to
-        "typeIds", "typeIIa" to "typeIId", "typeIIIc", "typeIVc", "rigid", "mori2006". A custom
-        pattern is a ``StepPattern``.
-    penalty : float >= 0
+    step_pattern : str or StepPattern, default "symmetric1"
+        "symmetric1" counts each step once. "symmetric2" counts a diagonal step twice; it is the
+        default of R's dtw and of ``preset="paper"``. The others of R's dtw are "asymmetric",
+        "symmetricP0", "symmetricP05", "symmetricP1", "symmetricP2", the same four as "asymmetricP0"
+        and so on, "typeIa" to "typeId", "typeIas" to "typeIds", "typeIIa" to "typeIId", "typeIIIc",
+        "typeIVc", "rigid", "mori2006". A custom pattern is a ``StepPattern``.
+    penalty : float >= 0, default 0
         Cost added to each step that advances by different numbers of points in P and Q, in units of
         the ground distance.
     window : int >= 0 or 0 < float < 1, optional
         Sakoe–Chiba band: abs(i (m-1) - j (n-1)) <= window (max(n, m) - 1), that is abs(i - j) <=
         window if n = m. Unlimited if n = 1 or m = 1. A fraction is one of max(n, m), rounded down.
-    open_begin, open_end : bool
-        Subsequence DTW: P is matched to a part of Q, which may begin, or end, anywhere. Not allowed
-        with a window. With "symmetric1" without a penalty, the cheapest part counts, not normalised
-        by length. `open_end` also works with every step pattern that `normalize` accepts. The end
-        is then where the cost divided by the weight of paths to it is least, as in R's dtw.
-        `open_begin` needs a pattern normalised by N, such as "asymmetric".
+    open_begin, open_end : bool, default False
+        Match P to a part of Q that may begin, or end, anywhere (subsequence DTW). Not allowed with
+        a window. "symmetric1" without a penalty accepts both, and the cheapest part counts.
+        `open_end` also accepts every pattern that `normalize` accepts, with the end of the smallest
+        cost for the weight of its path. `open_begin` also accepts the patterns normalised by N,
+        such as "asymmetric".
     relax : sequence of four int >= 0, optional
         Numbers of points that may be left out: at the beginning and end of P, then at the beginning
         and end of Q (four numbers). The cheapest path counts, not normalised by length. At least
         one pair of points is matched. Requires "symmetric1", with or without a penalty, and
         excludes `window`, open ends and `normalize`.
-    normalize : bool
+    normalize : bool, default False
         Whether to divide by the sum of the step weights, which must be the same for all paths: n +
         m with "symmetric2", else that of the pattern (``StepPattern.normalization``). The result is
         a distance per step, which does not grow with the number of points. Not allowed with
@@ -100,6 +100,13 @@ def dtw(
         nan or negative, or its shape does not fit.
     TypeError
         If a curve, or a user-defined distance, does not hold real numbers.
+
+    See Also
+    --------
+    curvewise.dtw_path : The warping path, and the distance.
+    curvewise.cdist : Distances between many curves.
+    curvewise.subsequence : The best parts of a long record.
+    curvewise.frechet : The largest distance of paired points instead of the sum.
 
     Notes
     -----

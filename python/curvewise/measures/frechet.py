@@ -63,13 +63,20 @@ def frechet(
     TypeError
         If a curve, or a user-defined distance, does not hold real numbers.
 
+    See Also
+    --------
+    curvewise.frechet_path : The paired points, and the distance.
+    curvewise.frechet_continuous : The distance with the edges of the curves.
+    curvewise.cdist : Distances between many curves.
+    curvewise.dtw : The sum of the distances of paired points.
+
     Notes
     -----
-    Eiter & Mannila (1994): c[i, j] = max(d(P[i], Q[j]), min(c[i-1, j], c[i, j-1],
-    c[i-1, j-1])). Exact. Time O(n m), memory O(n + m).
+    Eiter & Mannila, "Computing discrete Fréchet distance" (1994): c[i, j] = max(d(P[i], Q[j]),
+    min(c[i-1, j], c[i, j-1], c[i-1, j-1])). Exact. Time O(n m), memory O(n + m).
 
-    {closed_notes} It is found by bisection among distances. Each decision takes O(n m), by the
-    points of Q from which a pair can be reached; less for similar curves. Memory O(n + m). Exact.
+    {closed_notes} It is found by bisection, each step in time O(n m), or less for similar curves.
+    Memory O(n + m). Exact.
 
     {own_distances}
 
