@@ -54,7 +54,7 @@ class Answer:
 
 
 class OpenSearch:
-    """A running search with ``ask`` and ``tell``; see :meth:`Method.begin`.
+    """A running search with ``ask`` and ``tell``, as ``begin`` of a method returns it.
 
     Attributes
     ----------
