@@ -156,9 +156,13 @@ void compute_rows(const BatchMeasure& measure, const RowBlock& row, const Checke
         const LoadedBlock q(Q, column, poller);
         const auto pairs = measure.pairs(row.rows, q.curves(), poller);
         if (!row.is_checked) measure.check_rows(row.rows, poller);
-        const PairTiles tiles(row.sizes, sizes_of(q.curves()),
+        const Sizes sizes = sizes_of(q.curves());
+        const std::ptrdiff_t beside =
+            pairs->most_beside(*std::max_element(row.sizes.begin(), row.sizes.end()),
+                               *std::max_element(sizes.begin(), sizes.end()));
+        const PairTiles tiles(row.sizes, sizes,
                               is_diagonal ? PairSet::triangle : PairSet::rectangle, measure.steps(),
-                              workers_of(output));
+                              workers_of(output), beside);
         run_pairs(*pairs, tiles, output.destination.from(row.first, column.first), output.options,
                   poller);
     }

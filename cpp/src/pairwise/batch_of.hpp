@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,33 @@
 #include "pairwise/targets_of.hpp"
 
 namespace curvewise::pairwise {
+
+// Replaces M::Beside: every pair by itself.
+template <class M>
+struct NothingBeside {
+    static std::ptrdiff_t most(const M& /*measure*/, std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/,
+                               std::ptrdiff_t /*dim*/) noexcept {
+        return 1;
+    }
+    static std::ptrdiff_t gather(const M& /*measure*/,
+                                 const typename M::PreparedQ* const* /*curves*/,
+                                 std::ptrdiff_t /*count*/) noexcept {
+        return 0;
+    }
+    static bool values(const M& /*measure*/, const typename M::PreparedP& /*P*/,
+                       std::ptrdiff_t /*first*/, double* /*out*/, Poller& /*poller*/) noexcept {
+        return false;
+    }
+};
+
+template <class M, class = void>
+struct BesideOf {
+    using type = NothingBeside<M>;
+};
+template <class M>
+struct BesideOf<M, std::void_t<typename M::Beside>> {
+    using type = typename M::Beside;
+};
 
 template <class M>
 class BatchOf final : public BatchMeasure {
@@ -106,10 +134,32 @@ class BatchOf final : public BatchMeasure {
                             columns_[static_cast<std::size_t>(j)],
                             {call.cutoff, call.workers, call.poller, memory});
         }
+        std::ptrdiff_t most_beside(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept override {
+            if (columns_.empty()) return 1;
+            return Beside::most(measure_, n, m, columns_.front().checked.curve.dim());
+        }
+        std::ptrdiff_t gather(const std::ptrdiff_t* columns, std::ptrdiff_t count,
+                              ThreadMemory& memory) const override {
+            auto& own = static_cast<OwnMemory&>(memory);
+            own.gathered.clear();
+            for (std::ptrdiff_t k = 0; k < count; ++k) {
+                own.gathered.push_back(&columns_[static_cast<std::size_t>(columns[k])]);
+            }
+            return own.beside.gather(measure_, own.gathered.data(), count);
+        }
+        bool values(std::ptrdiff_t i, std::ptrdiff_t first, double* out,
+                    const PairCall& call) const override {
+            return static_cast<OwnMemory&>(call.memory)
+                .beside.values(measure_, rows_[static_cast<std::size_t>(i)], first, out,
+                               call.poller);
+        }
 
        private:
+        using Beside = typename BesideOf<M>::type;
         struct OwnMemory final : ThreadMemory {
             Memory content;
+            Beside beside;
+            std::vector<const PreparedQ*> gathered;
         };
 
         const M& measure_;

@@ -40,6 +40,18 @@
 //     value(j, prepared_q, call)         the value, as the measure gives it
 //     is_within(j, prepared_q, call)     whether that is at most the call's cutoff
 //
+// The measure may compute one P with several Qs at once, in less time than one by one, with values
+// of the same bits. Then it has
+//
+//   M::Beside                          several Qs, and the memory of one thread
+//     most(measure, n, m, dim)         of how many Qs of m points, with Ps of n points; 1 where
+//                                      one by one is as fast
+//     gather(measure, Qs, count)       takes the first of the Qs, given as pointers, the longest
+//                                      first; returns how many, 0 where the first is not for this
+//     values(measure, prepared_p, first, out, poller)
+//                                      writes those of the Qs from `first` on, and counts their
+//                                      steps; false, and nothing done, where P is not for this
+//
 // For other results of its functions (a path, a table), it has further members that take the same
 // three arguments.
 #pragma once

@@ -22,7 +22,8 @@ class PairRun {
           tiles_(tiles),
           destination_(destination),
           workers_(runtime::resolve_workers(options.workers)),
-          cutoff_(options.cutoff) {}
+          cutoff_(options.cutoff),
+          are_some_beside_(pairs.most_beside(1, 1) > 1) {}
 
     void run(Poller& poller) {
         if (pairs_.is_swept() && workers_ > 1) run_giants(poller);
@@ -52,7 +53,9 @@ class PairRun {
             pairs_.row_points(i) > pairs_.column_points(j)) {
             std::swap(i, j);
         }
-        const double found = pairs_.value(i, j, call);
+        return within_cutoff(pairs_.value(i, j, call));
+    }
+    double within_cutoff(double found) const noexcept {
         return found > cutoff_ ? std::numeric_limits<double>::infinity() : found;
     }
 
@@ -80,20 +83,64 @@ class PairRun {
             const std::unique_ptr<ThreadMemory> memory = pairs_.make_memory();
             const PairCall call{cutoff_, 1, poller, *memory};
             const std::vector<Tile>& tiles = tiles_.tiles();
+            std::vector<double> values;
             for (std::size_t t = next_++; t < tiles.size() && !has_failed_; t = next_++) {
-                tiles_.for_each(tiles[t], [&](std::ptrdiff_t i, std::ptrdiff_t j) {
-                    if (is_giant(i, j)) return true;
-                    destination_.write(i, j, value(i, j, call));
-                    if (pairs_.is_swept() ? poller.stopped() : poller.count_steps(steps(i, j))) {
-                        throw Stopped();
-                    }
-                    return true;
-                });
+                if (are_some_beside_) {
+                    take_columns_beside(tiles[t], call, values);
+                } else {
+                    take_one_by_one(tiles[t], call);
+                }
             }
         } catch (...) {
             const std::lock_guard<std::mutex> lock(mutex_);
             if (!failure_) failure_ = std::current_exception();
             has_failed_ = true;
+        }
+    }
+
+    void take_one_by_one(const Tile& tile, const PairCall& call) const {
+        tiles_.for_each(tile, [&](std::ptrdiff_t i, std::ptrdiff_t j) {
+            if (is_giant(i, j)) return true;
+            destination_.write(i, j, value(i, j, call));
+            if (pairs_.is_swept() ? call.poller.stopped() : call.poller.count_steps(steps(i, j))) {
+                throw Stopped();
+            }
+            return true;
+        });
+    }
+
+    // `values`: the memory of the thread.
+    void take_columns_beside(Tile tile, const PairCall& call, std::vector<double>& values) const {
+        const std::ptrdiff_t end = tile.column_end;
+        for (; tile.column < end; tile.column = tile.column_end) {
+            const std::ptrdiff_t count =
+                pairs_.gather(tiles_.columns() + tile.column, end - tile.column, call.memory);
+            tile.column_end = tile.column + std::max<std::ptrdiff_t>(count, 1);
+            if (count < 2) {
+                take_one_by_one(tile, call);
+                continue;
+            }
+            values.resize(static_cast<std::size_t>(count));
+            for (std::ptrdiff_t a = tile.row; a < tile.row_end; ++a) {
+                take_row(tile, a, call, values.data());
+            }
+        }
+    }
+
+    // A row with the columns of the tile, all of which have been gathered.
+    void take_row(Tile tile, std::ptrdiff_t a, const PairCall& call, double* values) const {
+        const std::ptrdiff_t first = tiles_.first_column(tile, a);
+        if (first >= tile.column_end) return;
+        const std::ptrdiff_t i = tiles_.row(a);
+        if (!pairs_.values(i, first - tile.column, values, call)) {
+            tile.row = a;
+            tile.row_end = a + 1;
+            return take_one_by_one(tile, call);
+        }
+        for (std::ptrdiff_t b = first; b < tile.column_end; ++b) {
+            const std::ptrdiff_t j = tiles_.columns()[b];
+            const bool swap = tiles_.set() == PairSet::triangle && j < i;
+            destination_.write(swap ? j : i, swap ? i : j, within_cutoff(values[b - first]));
         }
     }
 
@@ -104,6 +151,7 @@ class PairRun {
     const PairDestination& destination_;
     std::ptrdiff_t workers_;
     double cutoff_;
+    bool are_some_beside_;
     std::int64_t giant_ = no_giant;
     std::atomic<std::size_t> next_{0};
     std::atomic<bool> has_failed_{false};

@@ -84,6 +84,17 @@ class PairValues {
     virtual std::ptrdiff_t column_points(std::ptrdiff_t j) const noexcept = 0;
     virtual std::unique_ptr<ThreadMemory> make_memory() const = 0;
     virtual double value(std::ptrdiff_t i, std::ptrdiff_t j, const PairCall& call) const = 0;
+
+    // One row with several columns at once, with the same values: how many columns of m points at
+    // most, with rows of n points; 1 where such pairs are computed one by one.
+    virtual std::ptrdiff_t most_beside(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept = 0;
+    // Takes the first of these columns, the longest first, and returns how many; or none.
+    virtual std::ptrdiff_t gather(const std::ptrdiff_t* columns, std::ptrdiff_t count,
+                                  ThreadMemory& memory) const = 0;
+    // Writes the values of row i and the columns taken, from number `first` on, regardless of the
+    // cutoff. False, and nothing done, where the row is not for this.
+    virtual bool values(std::ptrdiff_t i, std::ptrdiff_t first, double* out,
+                        const PairCall& call) const = 0;
 };
 
 // Throws Stopped where the poller, which has begun, says so.

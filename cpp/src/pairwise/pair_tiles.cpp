@@ -22,9 +22,19 @@ std::vector<std::ptrdiff_t> largest_first(const Sizes& sizes) {
     return order;
 }
 
-std::ptrdiff_t tile_edge(double pairs, std::ptrdiff_t workers) noexcept {
-    const double tiles = tiles_per_worker * static_cast<double>(workers);
-    const double edge = std::clamp(std::sqrt(pairs / tiles), 1.0, max_edge);
+// Pairs that are computed together are short, and a thread waits for no more than a few of them: it
+// needs fewer tiles, a single thread none. The more rows a tile has, the fewer times its columns
+// are gathered.
+constexpr double tiles_per_worker_beside = 16.0;
+
+std::ptrdiff_t tile_edge(double pairs, std::ptrdiff_t workers, std::ptrdiff_t beside) noexcept {
+    const double tiles = beside > 1 ? tiles_per_worker_beside : tiles_per_worker;
+    const bool is_largest = beside > 1 && workers == 1;
+    const double least = is_largest ? max_edge : 1.0;
+    double edge =
+        std::clamp(std::sqrt(pairs / (tiles * static_cast<double>(workers))), least, max_edge);
+    const auto whole = static_cast<double>(beside);
+    if (edge > whole) edge -= std::fmod(edge, whole);
     return static_cast<std::ptrdiff_t>(std::max(edge, std::ceil(std::sqrt(pairs / max_tiles))));
 }
 
@@ -46,15 +56,15 @@ std::int64_t PairTiles::total(const Sizes& rows, const Sizes& columns, PairSet s
 }
 
 PairTiles::PairTiles(const Sizes& rows, const Sizes& columns, PairSet set, Steps steps,
-                     std::ptrdiff_t workers)
+                     std::ptrdiff_t workers, std::ptrdiff_t beside)
     : set_(set),
       rows_(largest_first(rows)),
       columns_(set == PairSet::triangle ? rows_ : largest_first(columns)) {
     const auto height = static_cast<std::ptrdiff_t>(rows.size());
     const auto width = static_cast<std::ptrdiff_t>(columns.size());
     const double share = set == PairSet::triangle ? 0.5 : 1.0;
-    const std::ptrdiff_t edge =
-        tile_edge(share * static_cast<double>(height) * static_cast<double>(width), workers);
+    const std::ptrdiff_t edge = tile_edge(
+        share * static_cast<double>(height) * static_cast<double>(width), workers, beside);
     const auto points = [](const Sizes& sizes, const std::vector<std::ptrdiff_t>& order,
                            std::ptrdiff_t position) {
         return sizes[static_cast<std::size_t>(order[static_cast<std::size_t>(position)])];

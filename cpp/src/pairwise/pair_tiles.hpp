@@ -35,8 +35,9 @@ class PairTiles {
     static std::int64_t total(const Sizes& rows, const Sizes& columns, PairSet set,
                               Steps steps) noexcept;
 
+    // `beside`: the columns that are computed at once, so that a tile has as many if it can.
     PairTiles(const Sizes& rows, const Sizes& columns, PairSet set, Steps steps,
-              std::ptrdiff_t workers);
+              std::ptrdiff_t workers, std::ptrdiff_t beside);
 
     PairSet set() const noexcept { return set_; }
     const std::vector<Tile>& tiles() const noexcept { return tiles_; }
@@ -46,20 +47,25 @@ class PairTiles {
     void for_each(const Tile& tile, Visit visit) const {
         for (std::ptrdiff_t a = tile.row; a < tile.row_end; ++a) {
             for (std::ptrdiff_t b = first_column(tile, a); b < tile.column_end; ++b) {
-                const std::ptrdiff_t i = rows_[static_cast<std::size_t>(a)];
-                const std::ptrdiff_t j = columns_[static_cast<std::size_t>(b)];
+                const std::ptrdiff_t i = row(a), j = columns_[static_cast<std::size_t>(b)];
                 const bool swap = set_ == PairSet::triangle && j < i;
                 if (!(swap ? visit(j, i) : visit(i, j))) return;
             }
         }
     }
 
-   private:
+    // The indices by position in the sorted lists.
+    std::ptrdiff_t row(std::ptrdiff_t position) const noexcept {
+        return rows_[static_cast<std::size_t>(position)];
+    }
+    const std::ptrdiff_t* columns() const noexcept { return columns_.data(); }
+    // The position of the first column that a row of the tile is paired with.
     std::ptrdiff_t first_column(const Tile& tile, std::ptrdiff_t row) const noexcept {
         const bool on_diagonal = set_ == PairSet::triangle && row + 1 > tile.column;
         return on_diagonal ? row + 1 : tile.column;
     }
 
+   private:
     PairSet set_;
     std::vector<std::ptrdiff_t> rows_;  // indices, the largest curve first
     std::vector<std::ptrdiff_t> columns_;

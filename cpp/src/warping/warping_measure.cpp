@@ -10,6 +10,7 @@
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
 #include "runtime/stopwatch.hpp"
+#include "warping/curves_beside.hpp"
 #include "warping/dtw_recurrence.hpp"
 #include "warping/packed_side.hpp"
 #include "warping/pair_bounds.hpp"
@@ -85,9 +86,30 @@ class WarpingMeasure : public pairwise::SweptMeasure {
     }
 
     class Bounds;
+    class Beside;
 
    private:
     WarpingOptions options_;
+};
+
+// See warping::CurvesBeside.
+class WarpingMeasure::Beside {
+   public:
+    static std::ptrdiff_t most(const WarpingMeasure& measure, std::ptrdiff_t n, std::ptrdiff_t m,
+                               std::ptrdiff_t dim) noexcept {
+        return warping::CurvesBeside::most(measure.options_, n, m, dim);
+    }
+    std::ptrdiff_t gather(const WarpingMeasure& measure, const PreparedQ* const* curves,
+                          std::ptrdiff_t count) {
+        return curves_.gather(measure.options_, curves, count);
+    }
+    bool values(const WarpingMeasure& measure, const PreparedP& P, std::ptrdiff_t first,
+                double* out, Poller& poller) {
+        return curves_.distances(measure.options_, P, first, out, poller);
+    }
+
+   private:
+    warping::CurvesBeside curves_;
 };
 
 // See warping::PairBounds.

@@ -2,8 +2,6 @@
 // operations as in the sweep. Included by the kernel of each level, inside its anonymous
 // namespace.
 
-#include "sweep.inl.hpp"
-
 // Bit k: whether lane k of d is at most lane k of the threshold.
 #if defined(EIGEN_VECTORIZE_AVX512)
 inline std::uint64_t at_most(const Pack& d, const Pack& threshold) noexcept {

@@ -11,6 +11,7 @@
 
 namespace curvewise::kernels {
 namespace {
+#include "beside.inl.hpp"
 #include "block.inl.hpp"
 #include "boxes.inl.hpp"
 #include "line.inl.hpp"
@@ -20,10 +21,23 @@ namespace {
 #include "soft.inl.hpp"
 }  // namespace
 
-const KernelSet CURVEWISE_LEVEL = {
-    select_advance,     select_resident, select_fill, select_reach, select_values,
-    select_least,       select_runs,     extremes,    sum,          select_line,
-    line_height,        narrow,          width,       arcs,         soft_forward<false>,
-    soft_forward<true>, soft_backward};
+const KernelSet CURVEWISE_LEVEL = {select_advance,
+                                   select_resident,
+                                   select_fill,
+                                   select_reach,
+                                   select_values,
+                                   select_least,
+                                   select_runs,
+                                   extremes,
+                                   sum,
+                                   select_line,
+                                   line_height,
+                                   narrow,
+                                   width,
+                                   select_beside,
+                                   arcs,
+                                   soft_forward<false>,
+                                   soft_forward<true>,
+                                   soft_backward};
 
 }  // namespace curvewise::kernels

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "beside.hpp"
 #include "block.hpp"
 #include "boxes.hpp"
 #include "curvewise/ground_distance.hpp"
@@ -128,6 +129,8 @@ struct KernelSet {
     std::ptrdiff_t line_height;
     NarrowFunction narrow;
     std::ptrdiff_t lanes;  // of a SIMD vector: the rows that it takes
+    // One curve with several at once. Null for what is swept one by one.
+    BesideFunction (*beside)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim) noexcept;
     ArcFunction arcs;
     SoftForward soft_forward;
     SoftForward soft_forward_with_shares;
