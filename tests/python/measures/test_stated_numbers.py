@@ -16,7 +16,7 @@ import curvewise
 
 @pytest.mark.parametrize("exponent", [-400, -511, -525, -540, -600])
 def test_small_differences_beside_large_coordinates(exponent: int) -> None:
-    """docs/explanation/guarantees.md, measures/dtw.md and frechet.md: 2^-511 and about 2^-538."""
+    """docs/project/test_evidence.md: 2^-511 and about 2^-538."""
     rng = np.random.default_rng(4)
     for measure in (curvewise.dtw, curvewise.frechet):
         for _ in range(50):
