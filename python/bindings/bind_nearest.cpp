@@ -32,8 +32,6 @@ py::tuple counts_of(const SearchRecord& record) {
     return py::make_tuple(record.pairs, record.refined, record.computed);
 }
 
-// Whatever waits for other threads' calls of the same index does so without the interpreter's lock,
-// which these may need for their reports.
 class BoundIndex {
    public:
     BoundIndex(const py::list& curves, const py::object& name, const py::dict& options)
@@ -41,19 +39,14 @@ class BoundIndex {
 
     void add(const py::list& curves) {
         const Curves added(curves);
-        // It may have to wait for searches, however few the curves are.
-        const double work = std::max(reading(added), steps_worth_watching);
-        interruptible(work, py::none(),
+        interruptible(reading(added), py::none(),
                       [&](Control* control) { index_.add(added.views, control); });
         note_longest(added);
     }
-    std::size_t size() const {
-        const WithoutLock unlocked;
-        return index_.size();
-    }
+    std::size_t size() const { return index_.size(); }
     py::list curves() const {
         py::list arrays;
-        for (const CurveView& curve : views()) {
+        for (const CurveView& curve : index_.curves()) {
             Numbers array =
                 curve.is_flat() ? Numbers(curve.size()) : Numbers({curve.size(), curve.dim()});
             double* to = array.mutable_data();
@@ -124,11 +117,6 @@ class BoundIndex {
     // The elementary steps that copying and preparing curves takes, roughly.
     static double reading(const Curves& curves) noexcept {
         return 10.0 * curves.size() * curves.longest() * curves.dim();
-    }
-
-    std::vector<CurveView> views() const {
-        const WithoutLock unlocked;
-        return index_.curves();
     }
 
     void note_longest(const Curves& curves) noexcept {

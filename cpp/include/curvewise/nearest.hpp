@@ -18,9 +18,9 @@
 /// Time: for N curves of n points, N cheap bounds a query, and O(n^2) for each remaining distance.
 /// Memory, relative to that of the points: at most 1.5 times from 128 numbers a curve on, and
 /// little more than once from 1,000 on. It is about twice for frechet_continuous, and three times
-/// for dtw and frechet on the sphere. Any number of threads may call all functions. add() prepares
-/// its curves while searches run. Then it waits for searches that began before it, and later
-/// searches wait for it.
+/// for dtw and frechet on the sphere. Any number of threads may call all functions. No call waits
+/// for another: add() works while searches run, and a search sees the curves that were there when
+/// it began.
 #pragma once
 
 #include <cstddef>
@@ -76,7 +76,7 @@ class Index {
     CURVEWISE_EXPORT ~Index();
 
     /// Adds all of the curves, or none if it throws. Throws std::logic_error if a Report of a call
-    /// of this index calls it, since it waits for the end of that call.
+    /// of this index calls it, since that call does not see the curves.
     CURVEWISE_EXPORT void add(const std::vector<CurveView>& curves, Control* control = nullptr);
     CURVEWISE_EXPORT std::size_t size() const;
     /// Copies of the points: valid as long as the index.

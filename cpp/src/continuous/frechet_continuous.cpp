@@ -16,13 +16,14 @@
 #include "continuous/leash_search.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
-#include "runtime/room.hpp"
+#include "runtime/growing_list.hpp"
 #include "runtime/workers.hpp"
 
 namespace curvewise {
 namespace {
 
 using continuous::BoxedCurve;
+using continuous::CurveSummary;
 using continuous::LeashSearch;
 using curves::RangeScale;
 
@@ -101,18 +102,25 @@ class FrechetContinuousMeasure : public pairwise::Distance {
 class FrechetContinuousMeasure::Bounds {
    public:
     static constexpr int levels = 3;
-    void keep(const PreparedQ& Q) { kept_.emplace_back(Q.checked, Q.boxed); }
-    void make_room(const Bounds& others) { runtime::make_room(kept_, others.kept_.size()); }
-    void take(Bounds& others) noexcept { runtime::move_behind(kept_, others.kept_); }
+    void reserve(const FrechetContinuousMeasure& /*measure*/,
+                 const std::vector<CurveView>& curves) {
+        kept_.make_room(static_cast<std::ptrdiff_t>(curves.size()));
+    }
+    void keep(const PreparedQ& Q) { kept_.push_back({Q.checked, Q.boxed}); }
+    void make_room(const Bounds& others) { kept_.make_room(others.kept_); }
+    void take(Bounds& others) noexcept { kept_.take(others.kept_); }
 
     class Query {
        public:
         Query(const FrechetContinuousMeasure& measure, const Bounds& bounds, const PreparedP& P)
             : measure_(measure), kept_(bounds.kept_), P_(P), summary_(P.checked, P.boxed) {}
-        void quick(double* bounds) const {
-            for (const continuous::CurveSummary& other : kept_) {
-                *bounds++ = is_plain(other.largest()) ? summary_.bound(other, P_.boxed.dim()) : 0.0;
-            }
+        void quick(double* bounds, std::ptrdiff_t count) const {
+            kept_.in_parts(count, [&](const CurveSummary* others, std::ptrdiff_t part) {
+                for (const CurveSummary* other = others; other != others + part; ++other) {
+                    *bounds++ =
+                        is_plain(other->largest()) ? summary_.bound(*other, P_.boxed.dim()) : 0.0;
+                }
+            });
         }
         double refined(std::ptrdiff_t /*j*/, const PreparedQ& Q, int level) const {
             if (!is_plain(Q.checked.largest)) return 0.0;
@@ -132,13 +140,13 @@ class FrechetContinuousMeasure::Bounds {
         }
 
         const FrechetContinuousMeasure& measure_;
-        const std::vector<continuous::CurveSummary>& kept_;
+        const runtime::GrowingList<CurveSummary>& kept_;
         const PreparedP& P_;
-        continuous::CurveSummary summary_;
+        CurveSummary summary_;
     };
 
    private:
-    std::vector<continuous::CurveSummary> kept_;
+    runtime::GrowingList<CurveSummary> kept_;
 };
 
 // Calls use(search) for two checked curves.

@@ -1,5 +1,9 @@
 // Index: the curves, prepared by their measure, which keeps their points, and queries shared out
 // among threads. A query is one thread's, so that the number of threads changes nothing.
+//
+// A call sees the curves that were there when it began. It neither waits for add() nor keeps it
+// waiting: add() writes behind the curves that others see, and then shows the new ones to the calls
+// that begin later.
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -15,7 +19,6 @@
 #include "curvewise/nearest.hpp"
 #include "nearest/neighbor_search.hpp"
 #include "pairwise/batch.hpp"
-#include "runtime/fair_mutex.hpp"
 #include "runtime/workers.hpp"
 
 namespace curvewise {
@@ -26,11 +29,10 @@ using curves::CurveInDoubles;
 using curves::CurveList;
 using curves::LoadedCurve;
 using nearest::NeighborSearch;
+using pairwise::Seen;
 using pairwise::TargetQuery;
 using pairwise::Targets;
-using runtime::FairMutex;
 using runtime::Poller;
-using runtime::Use;
 
 // Answers one query: for curve `i` of the queries, without the target `left_out`, or -1.
 using Answer = std::function<void(NeighborSearch& search, TargetQuery& query, std::size_t i,
@@ -44,12 +46,12 @@ struct Queries {
 
 class QueryRun {
    public:
-    QueryRun(const Targets& targets, const Queries& queries, const Answer& answer)
-        : targets_(targets), queries_(queries), answer_(answer) {}
+    QueryRun(const Targets& targets, const Seen& seen, const Queries& queries, const Answer& answer)
+        : targets_(targets), seen_(seen), queries_(queries), answer_(answer) {}
 
     SearchRecord run(std::ptrdiff_t workers, Poller& poller) {
         std::int64_t total = 0;
-        for (const CheckedCurve& P : queries_.curves) total += targets_.steps(P.curve.size());
+        for (const CheckedCurve& P : queries_.curves) total += steps(P);
         poller.begin(total);
         const auto useful = static_cast<std::ptrdiff_t>(queries_.curves.size());
         run_workers(std::min(workers, useful), poller,
@@ -60,14 +62,17 @@ class QueryRun {
     }
 
    private:
+    std::int64_t steps(const CheckedCurve& P) const noexcept {
+        return targets_.steps(P.curve.size(), seen_);
+    }
     void take_queries(Poller& poller) noexcept {
         try {
-            NeighborSearch search(targets_, poller);
+            NeighborSearch search(targets_, seen_.size, poller);
             for (std::size_t i = next_++; i < queries_.curves.size() && !has_failed_; i = next_++) {
                 const LoadedCurve loaded(queries_.curves[i], poller);
                 const CheckedCurve& P = loaded.checked();
-                const std::unique_ptr<TargetQuery> query = targets_.query(P, poller);
-                answer_(search, *query, i, targets_.steps(P.curve.size()),
+                const std::unique_ptr<TargetQuery> query = targets_.query(P, seen_, poller);
+                answer_(search, *query, i, steps(P),
                         queries_.are_targets ? static_cast<std::ptrdiff_t>(i) : -1);
             }
             const std::lock_guard<std::mutex> lock(mutex_);
@@ -82,6 +87,7 @@ class QueryRun {
     }
 
     const Targets& targets_;
+    const Seen& seen_;
     const Queries& queries_;
     const Answer& answer_;
     std::atomic<std::size_t> next_{0};
@@ -91,8 +97,8 @@ class QueryRun {
     SearchRecord record_;
 };
 
-// The threads that hold a lock; a thread is listed once for each time it has taken it.
-class Holders {
+// The threads that run calls; a thread is listed once for each of its calls.
+class Callers {
    public:
     void add() {
         const std::lock_guard<std::mutex> lock(mutex_);
@@ -113,48 +119,25 @@ class Holders {
     std::vector<std::thread::id> threads_;
 };
 
-// As long as this is there, its thread is among the holders.
-class Holder {
+// As long as this is there, its thread is among the callers.
+class Caller {
    public:
-    explicit Holder(Holders& holders) : holders_(holders) { holders_.add(); }
-    Holder(const Holder&) = delete;
-    Holder(Holder&&) = delete;
-    Holder& operator=(const Holder&) = delete;
-    Holder& operator=(Holder&&) = delete;
-    ~Holder() { holders_.remove(); }
+    explicit Caller(Callers& callers) : callers_(callers) { callers_.add(); }
+    Caller(const Caller&) = delete;
+    Caller(Caller&&) = delete;
+    Caller& operator=(const Caller&) = delete;
+    Caller& operator=(Caller&&) = delete;
+    ~Caller() { callers_.remove(); }
 
    private:
-    Holders& holders_;
+    Callers& callers_;
 };
 
-// The mutex of an index. A thread that has it, and calls from a report, need not have it twice.
-class Lock {
-   public:
-    // Waits for those before it; throws Stopped where that is asked for meanwhile.
-    Lock(FairMutex& mutex, Holders& holders, Use use, Poller& poller)
-        : mutex_(holders.have_this_thread() ? nullptr : &mutex), use_(use) {
-        if (mutex_ != nullptr && !mutex_->lock(use, [&] { return poller.poll(); })) throw Stopped();
-    }
-    Lock(const Lock&) = delete;
-    Lock(Lock&&) = delete;
-    Lock& operator=(const Lock&) = delete;
-    Lock& operator=(Lock&&) = delete;
-    ~Lock() {
-        if (mutex_ != nullptr) mutex_->unlock(use_);
-    }
-
-   private:
-    FairMutex* mutex_;
-    Use use_;
-};
-
-// A lock, whose thread is among the holders.
-struct Access {
-    Access(FairMutex& mutex, Holders& holders, Use use, Poller& poller)
-        : lock(mutex, holders, use, poller), holder(holders) {}
-
-    Lock lock;
-    Holder holder;
+// What a call sees of an index.
+struct View {
+    Seen seen;
+    std::shared_ptr<const std::set<std::ptrdiff_t>> sizes =  // the numbers of points of the curves
+        std::make_shared<const std::set<std::ptrdiff_t>>();
 };
 
 }  // namespace
@@ -168,45 +151,41 @@ class Index::State {
 
     void add(const std::vector<CurveView>& curves, Control* control) {
         Poller poller(control);
-        if (holders_.have_this_thread() || adding_.have_this_thread()) {
+        if (callers_.have_this_thread()) {
             throw std::logic_error(
-                "add was called by the report of a call of the same index, for whose end it would "
-                "wait; add the curves after that call");
+                "add was called by the report of a call of the same index, which does not see the "
+                "curves; add them after that call");
         }
-        const Holder adding(adding_);
-        check_like_first({curves, "curves"}, poller);
+        const Caller adding(callers_);
+        check_like_first({curves, "curves"}, view());
         const std::unique_ptr<Targets> added = prepared(curves, poller);
-        const Access access(mutex_, holders_, Use::alone, poller);
-        check_like_first({curves, "curves"});  // another thread may have added the first meanwhile
-        poller.finish();                       // the last that may throw Stopped
-        for (const CurveView& curve : curves) sizes_.insert(curve.size());
+        poller.finish();  // the last that may throw Stopped
+        const std::lock_guard<std::mutex> lock(adding_);
+        View next = view();
+        check_like_first({curves, "curves"}, next);  // another may have added the first meanwhile
+        next.sizes = with_sizes(next.sizes, curves);
         targets_->make_room(*added);
         targets_->take(*added);  // does not fail
+        next.seen = targets_->seen();
+        show(std::move(next));
     }
 
-    std::size_t size() const {
-        Poller poller(nullptr);
-        const Access access(mutex_, holders_, Use::shared, poller);
-        return static_cast<std::size_t>(targets_->size());
-    }
+    std::size_t size() const { return static_cast<std::size_t>(view().seen.size); }
 
     std::vector<CurveView> curves() const {
-        Poller poller(nullptr);
-        const Access access(mutex_, holders_, Use::shared, poller);
+        const std::ptrdiff_t size = view().seen.size;
         std::vector<CurveView> views;
-        for (std::ptrdiff_t j = 0; j < targets_->size(); ++j) {
-            views.push_back(targets_->curve(j).curve);
-        }
+        for (std::ptrdiff_t j = 0; j < size; ++j) views.push_back(targets_->curve(j).curve);
         return views;
     }
 
     // Of the curves of X, or, where that is null, of the index.
     void kneighbors(const std::vector<CurveView>* X, std::ptrdiff_t count, double* distances,
                     std::int64_t* indices, const SearchOptions& options, Control* control) const {
-        Poller poller(control);
-        const Access access(mutex_, holders_, Use::shared, poller);
-        check_count(count, X == nullptr);
-        ask(X, options, poller,
+        const Caller asking(callers_);
+        const View view = this->view();
+        check_count(count, view.seen.size, X == nullptr);
+        ask(X, view, options, control,
             [=](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
                 std::ptrdiff_t left_out) {
                 auto place = static_cast<std::ptrdiff_t>(i) * count;
@@ -220,12 +199,12 @@ class Index::State {
     std::vector<std::vector<Neighbor>> radius_neighbors(const std::vector<CurveView>* X,
                                                         double radius, const SearchOptions& options,
                                                         Control* control) const {
-        Poller poller(control);
-        const Access access(mutex_, holders_, Use::shared, poller);
+        const Caller asking(callers_);
+        const View view = this->view();
         curves::check_limit("radius", radius, measure_->may_be_negative());
         std::vector<std::vector<Neighbor>> results(
-            X == nullptr ? static_cast<std::size_t>(targets_->size()) : X->size());
-        ask(X, options, poller,
+            X == nullptr ? static_cast<std::size_t>(view.seen.size) : X->size());
+        ask(X, view, options, control,
             [&](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
                 std::ptrdiff_t left_out) {
                 results[i] =
@@ -239,13 +218,35 @@ class Index::State {
     }
 
    private:
-    // Made ready without the lock, while others search.
+    using Sizes = std::shared_ptr<const std::set<std::ptrdiff_t>>;
+
+    View view() const {
+        const std::lock_guard<std::mutex> lock(showing_);
+        return view_;
+    }
+    void show(View&& next) noexcept {
+        const std::lock_guard<std::mutex> lock(showing_);
+        std::swap(view_, next);
+    }
+
+    // The same, unless one of the curves has another number of points.
+    static Sizes with_sizes(const Sizes& sizes, const std::vector<CurveView>& curves) {
+        std::set<std::ptrdiff_t> others;
+        for (const CurveView& curve : curves) {
+            if (sizes->count(curve.size()) == 0) others.insert(curve.size());
+        }
+        if (others.empty()) return sizes;
+        others.insert(sizes->begin(), sizes->end());
+        return std::make_shared<const std::set<std::ptrdiff_t>>(std::move(others));
+    }
+
+    // Made ready without a lock, while others search.
     std::unique_ptr<Targets> prepared(const std::vector<CurveView>& curves, Poller& poller) const {
         std::unique_ptr<Targets> added = measure_->make_targets();
         std::int64_t total = 0;
         for (const CurveView& curve : curves) total += curve.size();
         poller.begin(total);
-        added->reserve(curves.size());
+        added->reserve(curves);
         for (std::size_t i = 0; i < curves.size(); ++i) {
             const std::string name = CurveList(curves, "curves").name_of(i);
             const CurveInDoubles curve(curves[i], poller);
@@ -255,21 +256,23 @@ class Index::State {
         return added;
     }
 
-    void ask(const std::vector<CurveView>* X, const SearchOptions& options, Poller& poller,
-             const Answer& answer) const {
+    void ask(const std::vector<CurveView>* X, const View& view, const SearchOptions& options,
+             Control* control, const Answer& answer) const {
+        Poller poller(control);
         const std::ptrdiff_t workers = runtime::resolve_workers(options.workers);
-        const Queries queries = checked(X, poller);
-        const SearchRecord record = QueryRun(*targets_, queries, answer).run(workers, poller);
+        const Queries queries = checked(X, view, poller);
+        const SearchRecord record =
+            QueryRun(*targets_, view.seen, queries, answer).run(workers, poller);
         if (options.record == nullptr) return;
         options.record->pairs += record.pairs;
         options.record->refined += record.refined;
         options.record->computed += record.computed;
     }
 
-    Queries checked(const std::vector<CurveView>* X, Poller& poller) const {
+    Queries checked(const std::vector<CurveView>* X, const View& view, Poller& poller) const {
         Queries queries{{}, X == nullptr};
         if (X == nullptr) {
-            for (std::ptrdiff_t j = 0; j < targets_->size(); ++j) {
+            for (std::ptrdiff_t j = 0; j < view.seen.size; ++j) {
                 poller.poll_in_loop(static_cast<std::size_t>(j));
                 queries.curves.push_back(targets_->curve(j));
                 // It may have been added behind others.
@@ -277,7 +280,7 @@ class Index::State {
             }
         } else {
             const CurveList list(*X, "X");
-            check_like_first(list);
+            check_like_first(list, view);
             for (std::size_t i = 0; i < X->size(); ++i) {
                 queries.curves.push_back(checked_curve(list[i], list.name_of(i), poller));
             }
@@ -288,7 +291,7 @@ class Index::State {
             targets_->check(LoadedCurve(P, poller).checked(), poller);
         }
         for (const std::ptrdiff_t n : sizes) {
-            for (const std::ptrdiff_t m : sizes_) measure_->check_sizes(n, m);
+            for (const std::ptrdiff_t m : *view.sizes) measure_->check_sizes(n, m);
         }
         return queries;
     }
@@ -299,12 +302,8 @@ class Index::State {
     }
 
     // The shapes of a list, which must agree with those of the index.
-    void check_like_first(const CurveList& list, Poller& poller) const {
-        const Access access(mutex_, holders_, Use::shared, poller);
-        check_like_first(list);
-    }
-    void check_like_first(const CurveList& list) const {
-        if (targets_->size() == 0) {
+    void check_like_first(const CurveList& list, const View& view) const {
+        if (view.seen.size == 0) {
             check_shapes(measure_->requirements(), list);
         } else {
             const CurveView& first = targets_->curve(0).curve;
@@ -312,8 +311,8 @@ class Index::State {
         }
     }
 
-    void check_count(std::ptrdiff_t count, bool leaves_itself_out) const {
-        const std::ptrdiff_t most = targets_->size() - (leaves_itself_out ? 1 : 0);
+    static void check_count(std::ptrdiff_t count, std::ptrdiff_t size, bool leaves_itself_out) {
+        const std::ptrdiff_t most = size - (leaves_itself_out ? 1 : 0);
         if (count >= 1 && count <= most) return;
         throw std::invalid_argument(
             "n_neighbors is " + std::to_string(count) + "; give a whole number from 1 to " +
@@ -322,11 +321,11 @@ class Index::State {
     }
 
     std::unique_ptr<const pairwise::BatchMeasure> measure_;
-    mutable FairMutex mutex_;
-    mutable Holders holders_;  // of it
-    Holders adding_;           // the threads that add, most of the time without the mutex
-    std::set<std::ptrdiff_t> sizes_;
     std::unique_ptr<Targets> targets_;
+    std::mutex adding_;           // has who makes the targets more
+    mutable std::mutex showing_;  // has who reads or replaces the view, for a moment
+    View view_;
+    mutable Callers callers_;
 };
 
 Index::Index(const std::vector<CurveView>& curves, const Measure& measure, Control* control)

@@ -27,10 +27,11 @@ bool is_nearer(const Neighbor& a, const Neighbor& b) noexcept;
 
 class NeighborSearch {
    public:
-    // Throw Stopped where the poller of `call` says so. Count `all_steps` as done.
-    NeighborSearch(const pairwise::Targets& targets, Poller& poller);
+    // Of the first `count` targets. Throws Stopped where the poller says so.
+    NeighborSearch(const pairwise::Targets& targets, std::ptrdiff_t count, Poller& poller);
 
-    // The `count` nearest, in order. `left_out`: a target to skip, or -1.
+    // The `count` nearest, in order. `left_out`: a target to skip, or -1. Counts `all_steps` as
+    // done.
     std::vector<Neighbor> nearest(TargetQuery& query, std::int64_t all_steps, std::ptrdiff_t count,
                                   std::ptrdiff_t left_out);
     // All within `radius`, by index; the distances are nan where they are not wanted.
@@ -58,7 +59,7 @@ class NeighborSearch {
     double cutoff() const noexcept;
     void finish_pair(TargetQuery& query, std::ptrdiff_t target);
 
-    const pairwise::Targets& targets_;
+    std::ptrdiff_t size_;  // of the targets
     Poller& poller_;
     std::unique_ptr<pairwise::ThreadMemory> memory_;
     std::vector<double> quick_;

@@ -31,11 +31,13 @@
 // (targets.hpp):
 //
 //   M::Bounds                            the stored data of all Qs for the bounds, added by
-//                                        keep(prepared_q), or by make_room(others) and then
-//                                        take(others), which does not throw and empties the others
+//                                        keep(prepared_q) after reserve(measure, curves), or by
+//                                        make_room(others) and then take(others), which does not
+//                                        throw, empties the others, and changes nothing that a
+//                                        query reads
 //   M::Bounds::levels                    the number of bounds of a pair, from cheap to expensive
 //   M::Bounds::Query                     of one P: made from (measure, bounds, prepared_p);
-//     quick(out)                         the first bound of every Q
+//     quick(out, count)                  the first bound of each of the first `count` Qs
 //     refined(j, prepared_q, level)      a later one
 //     value(j, prepared_q, call)         the value, as the measure gives it
 //     is_within(j, prepared_q, call)     whether that is at most the call's cutoff

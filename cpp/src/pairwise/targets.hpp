@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "curves/checks.hpp"
 #include "pairwise/pair_run.hpp"
@@ -26,7 +27,7 @@ class TargetQuery {
 
     // The number of bounds of a pair, at least 1.
     virtual int levels() const noexcept = 0;
-    // Writes the first bound of every target.
+    // Writes the first bound of each target that was seen when this was made.
     virtual void quick(double* bounds) = 0;
     // That of a level above 0.
     virtual double refined(std::ptrdiff_t j, int level) = 0;
@@ -37,8 +38,15 @@ class TargetQuery {
     virtual std::int64_t steps(std::ptrdiff_t j) const noexcept = 0;
 };
 
-// All curves that take Q's place, prepared. A query may be made, and used, by several threads at
-// once, while nothing is added.
+// The targets that a call sees: the first of them. Others may be added meanwhile.
+struct Seen {
+    std::ptrdiff_t size = 0;
+    std::int64_t points = 0;  // of all together
+};
+
+// All curves that take Q's place, prepared. What is added stays as it is. So queries may be made,
+// and used, by several threads at once, while one thread adds more: a call has seen() from the
+// thread that adds, and reads nothing behind.
 class Targets {
    public:
     Targets() = default;
@@ -48,21 +56,24 @@ class Targets {
     Targets& operator=(Targets&&) = delete;
     virtual ~Targets() = default;
 
-    // Prepares for `count` more curves.
-    virtual void reserve(std::size_t count) = 0;
+    // Prepares for these curves.
+    virtual void reserve(const std::vector<CurveView>& curves) = 0;
     // Keeps a copy of the points. Throws where the curve serves no P.
     virtual void add(const CheckedCurve& Q, Poller& poller) = 0;
     // Adds those of `others`, of the same measure, for which room was made, and leaves it empty.
     virtual void make_room(const Targets& others) = 0;
     virtual void take(Targets& others) noexcept = 0;
-    virtual std::ptrdiff_t size() const noexcept = 0;
+    // All, for the thread that adds.
+    virtual Seen seen() const noexcept = 0;
+
     // As it was added, with the points that are kept.
     virtual const CheckedCurve& curve(std::ptrdiff_t j) const noexcept = 0;
     // Throws where P serves no Q, as query() does.
     virtual void check(const CheckedCurve& P, Poller& poller) const = 0;
-    virtual std::unique_ptr<TargetQuery> query(const CheckedCurve& P, Poller& poller) const = 0;
-    // The nominal steps of a P of n points with all of these.
-    virtual std::int64_t steps(std::ptrdiff_t n) const noexcept = 0;
+    virtual std::unique_ptr<TargetQuery> query(const CheckedCurve& P, const Seen& seen,
+                                               Poller& poller) const = 0;
+    // The nominal steps of a P of n points with all that are seen.
+    virtual std::int64_t steps(std::ptrdiff_t n, const Seen& seen) const noexcept = 0;
     virtual std::unique_ptr<ThreadMemory> make_memory() const = 0;
 };
 

@@ -11,7 +11,7 @@
 #include "curves/owned_curve.hpp"
 #include "pairwise/measure.hpp"
 #include "pairwise/targets.hpp"
-#include "runtime/room.hpp"
+#include "runtime/growing_list.hpp"
 
 namespace curvewise::pairwise {
 
@@ -20,16 +20,17 @@ template <class M>
 class NoBounds {
    public:
     static constexpr int levels = 1;
-    void keep(const typename M::PreparedQ& /*Q*/) noexcept { ++size_; }
+    void reserve(const M& /*measure*/, const std::vector<CurveView>& /*curves*/) noexcept {}
+    void keep(const typename M::PreparedQ& /*Q*/) noexcept {}
     void make_room(const NoBounds& /*others*/) noexcept {}
-    void take(NoBounds& others) noexcept { size_ += std::exchange(others.size_, 0); }
+    void take(NoBounds& /*others*/) noexcept {}
 
     class Query {
        public:
-        Query(const M& measure, const NoBounds& bounds, const typename M::PreparedP& P) noexcept
-            : measure_(measure), size_(bounds.size_), P_(P) {}
-        void quick(double* bounds) const noexcept {
-            std::fill_n(bounds, size_, -std::numeric_limits<double>::infinity());
+        Query(const M& measure, const NoBounds& /*bounds*/, const typename M::PreparedP& P) noexcept
+            : measure_(measure), P_(P) {}
+        void quick(double* bounds, std::ptrdiff_t count) const noexcept {
+            std::fill_n(bounds, count, -std::numeric_limits<double>::infinity());
         }
         double refined(std::ptrdiff_t /*j*/, const typename M::PreparedQ& /*Q*/,
                        int /*level*/) const noexcept {
@@ -46,12 +47,8 @@ class NoBounds {
 
        private:
         const M& measure_;
-        std::ptrdiff_t size_;
         const typename M::PreparedP& P_;
     };
-
-   private:
-    std::ptrdiff_t size_ = 0;
 };
 
 template <class M, class = void>
@@ -74,39 +71,42 @@ class TargetsOf final : public Targets {
    public:
     explicit TargetsOf(const M& measure) : measure_(measure) {}
 
-    void reserve(std::size_t count) override { curves_.reserve(count); }
+    void reserve(const std::vector<CurveView>& curves) override {
+        curves_.make_room(static_cast<std::ptrdiff_t>(curves.size()));
+        bounds_.reserve(measure_, curves);
+    }
     void add(const CheckedCurve& Q, Poller& poller) override {
-        curves_.push_back(kept(Q, poller));
-        bounds_.keep(curves_.back());
+        PreparedQ curve = kept(Q, poller);
+        bounds_.keep(curve);
+        curves_.push_back(std::move(curve));
         points_ += Q.curve.size();
     }
     void make_room(const Targets& targets) override {
         const auto& others = static_cast<const TargetsOf&>(targets);
-        runtime::make_room(curves_, others.curves_.size());
-        runtime::make_room(owned_, others.owned_.size());
+        curves_.make_room(others.curves_);
+        owned_.make_room(others.owned_);
         bounds_.make_room(others.bounds_);
     }
     void take(Targets& targets) noexcept override {
         auto& others = static_cast<TargetsOf&>(targets);
-        runtime::move_behind(curves_, others.curves_);
-        runtime::move_behind(owned_, others.owned_);
+        curves_.take(others.curves_);
+        owned_.take(others.owned_);
         bounds_.take(others.bounds_);
         points_ += std::exchange(others.points_, 0);
     }
-    std::ptrdiff_t size() const noexcept override {
-        return static_cast<std::ptrdiff_t>(curves_.size());
-    }
+    Seen seen() const noexcept override { return {curves_.size(), points_}; }
     const CheckedCurve& curve(std::ptrdiff_t j) const noexcept override {
-        return curves_[static_cast<std::size_t>(j)].checked;
+        return curves_[j].checked;
     }
     void check(const CheckedCurve& P, Poller& poller) const override {
         measure_.check_p(typename M::PreparedP(P, poller), poller);
     }
-    std::int64_t steps(std::ptrdiff_t n) const noexcept override {
-        return M::steps(n, size(), points_);
+    std::int64_t steps(std::ptrdiff_t n, const Seen& seen) const noexcept override {
+        return M::steps(n, seen.size, seen.points);
     }
-    std::unique_ptr<TargetQuery> query(const CheckedCurve& P, Poller& poller) const override {
-        return std::make_unique<Query>(*this, P, poller);
+    std::unique_ptr<TargetQuery> query(const CheckedCurve& P, const Seen& seen,
+                                       Poller& poller) const override {
+        return std::make_unique<Query>(*this, seen.size, P, poller);
     }
     std::unique_ptr<ThreadMemory> make_memory() const override {
         return std::make_unique<OwnMemory>();
@@ -121,12 +121,15 @@ class TargetsOf final : public Targets {
 
     class Query final : public TargetQuery {
        public:
-        Query(const TargetsOf& targets, const CheckedCurve& P, Poller& poller)
-            : targets_(targets), P_(P, poller), bounds_(targets.measure_, targets.bounds_, P_) {
+        Query(const TargetsOf& targets, std::ptrdiff_t count, const CheckedCurve& P, Poller& poller)
+            : targets_(targets),
+              count_(count),
+              P_(P, poller),
+              bounds_(targets.measure_, targets.bounds_, P_) {
             targets.measure_.check_p(P_, poller);
         }
         int levels() const noexcept override { return Bounds::levels; }
-        void quick(double* bounds) override { bounds_.quick(bounds); }
+        void quick(double* bounds) override { bounds_.quick(bounds, count_); }
         double refined(std::ptrdiff_t j, int level) override {
             return bounds_.refined(j, target(j), level);
         }
@@ -146,10 +149,11 @@ class TargetsOf final : public Targets {
             return {call.cutoff, call.workers, call.poller, memory};
         }
         const typename M::PreparedQ& target(std::ptrdiff_t j) const noexcept {
-            return targets_.curves_[static_cast<std::size_t>(j)];
+            return targets_.curves_[j];
         }
 
         const TargetsOf& targets_;
+        std::ptrdiff_t count_;
         typename M::PreparedP P_;
         typename Bounds::Query bounds_;
     };
@@ -163,15 +167,16 @@ class TargetsOf final : public Targets {
                 return prepared;
             }
         }
-        owned_.emplace_back(Q.curve, poller);
+        curves::OwnedCurve points(Q.curve, poller);
         CheckedCurve copy = Q;
-        copy.curve = owned_.back().view();
+        copy.curve = points.view();
+        owned_.push_back(std::move(points));
         return PreparedQ(copy, poller);
     }
 
     const M& measure_;
-    std::vector<PreparedQ> curves_;
-    std::vector<curves::OwnedCurve> owned_;
+    runtime::GrowingList<PreparedQ> curves_;
+    runtime::GrowingList<curves::OwnedCurve> owned_;  // whose points the curves refer to
     Bounds bounds_;
     std::int64_t points_ = 0;
 };

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "runtime/room.hpp"
-
 namespace curvewise::warping {
 namespace {
 
@@ -51,11 +49,20 @@ BoxLevel level_with(const BoxTree& tree, std::ptrdiff_t most) noexcept {
     return {found.level, found.boxes, tree.box(found.level, 0)};
 }
 
-void KeptBoxes::keep(const BoxTree& tree) {
+std::ptrdiff_t KeptBoxes::count(std::ptrdiff_t points, std::ptrdiff_t dim) noexcept {
+    Level level(points);
+    std::ptrdiff_t boxes = 0, last = -1;
+    for (const std::ptrdiff_t most : most_boxes) {
+        level.coarsen_to(most);
+        if (level.level != last) boxes += level.boxes;
+        last = level.level;
+    }
+    return boxes * 2 * dim;
+}
+
+void KeptBoxes::write(const BoxTree& tree, std::uint16_t* numbers) noexcept {
     const std::ptrdiff_t dim = tree.dim();
     const double* const whole = tree.box(tree.levels() - 1, 0);
-    points_.push_back(tree.size());
-    first_.push_back(distances_.size());
     std::ptrdiff_t last = -1;
     for (const std::ptrdiff_t most : most_boxes) {
         const BoxLevel level = level_with(tree, most);
@@ -65,42 +72,27 @@ void KeptBoxes::keep(const BoxTree& tree) {
             const double* const box = level.boxes + b * 2 * dim;
             for (std::ptrdiff_t side = 0; side < 2 * dim; ++side) {
                 const double part = part_of(whole, side % dim, dim);
-                distances_.push_back(
-                    distance_of(box[side], whole[side], side < dim ? part : -part));
+                *numbers++ = distance_of(box[side], whole[side], side < dim ? part : -part);
             }
         }
     }
 }
 
-void KeptBoxes::make_room(const KeptBoxes& others) {
-    runtime::make_room(points_, others.points_.size());
-    runtime::make_room(first_, others.first_.size());
-    runtime::make_room(distances_, others.distances_.size());
-}
-
-void KeptBoxes::take(KeptBoxes& others) noexcept {
-    for (std::size_t& first : others.first_) first += distances_.size();
-    runtime::move_behind(points_, others.points_);
-    runtime::move_behind(first_, others.first_);
-    runtime::move_behind(distances_, others.distances_);
-}
-
-BoxLevel KeptBoxes::read(std::ptrdiff_t j, std::size_t limit, const double* whole,
-                         std::ptrdiff_t dim, BoxRoom& room) const {
-    Level found(points(j));
-    std::size_t before = 0;
+BoxLevel KeptBoxes::read(std::size_t limit, const double* whole, std::ptrdiff_t dim,
+                         BoxRoom& room) const {
+    Level found(points);
+    std::ptrdiff_t before = 0;
     found.coarsen_to(most_boxes[0]);
     for (std::size_t coarser = 1; coarser <= limit; ++coarser) {
         const Level finer = found;
         found.coarsen_to(most_boxes[coarser]);
-        if (found.level > finer.level) before += static_cast<std::size_t>(finer.boxes * 2 * dim);
+        if (found.level > finer.level) before += finer.boxes * 2 * dim;
     }
-    if (room.curve != j || room.level != found.level) {
-        room.curve = j;
+    if (room.curve != curve || room.level != found.level) {
+        room.curve = curve;
         room.level = found.level;
         room.boxes.reserve(found.boxes * 2 * dim);
-        const std::uint16_t* from =
-            distances_.data() + first_[static_cast<std::size_t>(j)] + before;
+        const std::uint16_t* const from = numbers + before;
         double* const to = room.boxes.data();
         for (std::ptrdiff_t c = 0; c < dim; ++c) {
             const double part = part_of(whole, c, dim);

@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "warping/box_tree.hpp"
 
@@ -33,30 +32,23 @@ struct BoxRoom {
     AlignedBuffer boxes;
 };
 
-class KeptBoxes {
-   public:
+// The numbers that are kept of a curve, and how they are read.
+struct KeptBoxes {
     // The finest levels with at most these numbers of boxes are kept.
     static constexpr std::ptrdiff_t most_boxes[] = {48, 32, 8};
 
-    void keep(const BoxTree& tree);
-    // Adds those of `others`, for which room was made, and leaves it empty.
-    void make_room(const KeptBoxes& others);
-    void take(KeptBoxes& others) noexcept;
+    // How many numbers there are of a curve of `points` points.
+    static std::ptrdiff_t count(std::ptrdiff_t points, std::ptrdiff_t dim) noexcept;
+    // Writes those of the curve of a tree.
+    static void write(const BoxTree& tree, std::uint16_t* numbers) noexcept;
 
-    std::ptrdiff_t size() const noexcept { return static_cast<std::ptrdiff_t>(points_.size()); }
-    // The number of points of curve j.
-    std::ptrdiff_t points(std::ptrdiff_t j) const noexcept {
-        return points_[static_cast<std::size_t>(j)];
-    }
-    // The finest level of curve j with at most most_boxes[limit] boxes, read into `room`, which
-    // serves this alone. `whole` is the box around the curve, within the usual range.
-    BoxLevel read(std::ptrdiff_t j, std::size_t limit, const double* whole, std::ptrdiff_t dim,
-                  BoxRoom& room) const;
+    // The finest level with at most most_boxes[limit] boxes, read into `room`, which serves the
+    // curves of one list alone. `whole` is the box around the curve, within the usual range.
+    BoxLevel read(std::size_t limit, const double* whole, std::ptrdiff_t dim, BoxRoom& room) const;
 
-   private:
-    std::vector<std::ptrdiff_t> points_;
-    std::vector<std::size_t> first_;  // of each curve's distances
-    std::vector<std::uint16_t> distances_;
+    std::ptrdiff_t curve;   // its index in the list
+    std::ptrdiff_t points;  // of the curve
+    const std::uint16_t* numbers;
 };
 
 }  // namespace curvewise::warping

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "runtime/room.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/ground_distance.hpp"
 
@@ -22,13 +21,13 @@ constexpr std::ptrdiff_t most_narrowed_cells = 3 << 18;
 
 constexpr int point_level = 3;
 
-void append_summary(const BoxTree& tree, std::vector<double>& summary) {
+// 4 * dim numbers.
+void write_summary(const BoxTree& tree, double* summary) noexcept {
     const PointAccess& points = tree.points();
     const std::ptrdiff_t dim = tree.dim();
-    for (std::ptrdiff_t c = 0; c < dim; ++c) summary.push_back(points(0, c));
-    for (std::ptrdiff_t c = 0; c < dim; ++c) summary.push_back(points(tree.size() - 1, c));
-    const double* const box = tree.box(tree.levels() - 1, 0);
-    summary.insert(summary.end(), box, box + 2 * dim);
+    for (std::ptrdiff_t c = 0; c < dim; ++c) *summary++ = points(0, c);
+    for (std::ptrdiff_t c = 0; c < dim; ++c) *summary++ = points(tree.size() - 1, c);
+    std::copy_n(tree.box(tree.levels() - 1, 0), 2 * dim, summary);
 }
 
 template <class Norm>
@@ -37,6 +36,9 @@ double distance(const double* a, const double* b, std::ptrdiff_t dim) noexcept {
     for (std::ptrdiff_t c = 0; c < dim; ++c) sum = Norm::add(sum, a[c] - b[c]);
     return Norm::finish(sum);
 }
+
+// Of a kept curve.
+constexpr std::ptrdiff_t numbers_of(std::ptrdiff_t dim) noexcept { return 1 + 4 * dim; }
 
 double sum_of(const double* terms, std::ptrdiff_t count) noexcept {
     return active_level().kernels->sum(terms, count);
@@ -85,25 +87,55 @@ kernels::PointsAndBoxes all_of(const double* boxes, std::ptrdiff_t count) noexce
 
 }  // namespace
 
+void KeptBounds::reserve(const std::vector<CurveView>& curves, std::ptrdiff_t dim) {
+    const auto count = static_cast<std::ptrdiff_t>(curves.size());
+    std::ptrdiff_t boxes = 0;
+    for (const CurveView& curve : curves) boxes += KeptBoxes::count(curve.size(), dim);
+    curves_.make_room(count);
+    numbers_.make_room(count * numbers_of(dim));
+    boxes_.make_room(boxes);
+}
+
 void KeptBounds::keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrder order) {
     const BoxTree tree(packed, order);
     dim_ = packed.dim();
-    append_summary(tree, summaries_);
-    boxes_.keep(tree);
-    largest_.push_back(Q.largest);
+    const std::ptrdiff_t box_numbers = KeptBoxes::count(packed.size(), dim_);
+    numbers_.make_room(numbers_of(dim_));
+    boxes_.make_room(box_numbers);
+    double* const numbers = numbers_.append(numbers_of(dim_));
+    std::uint16_t* const boxes = boxes_.append(box_numbers);
+    numbers[0] = Q.largest;
+    write_summary(tree, numbers + 1);
+    KeptBoxes::write(tree, boxes);
+    curves_.push_back({packed.size(), numbers, boxes});
 }
 
 void KeptBounds::make_room(const KeptBounds& others) {
-    runtime::make_room(largest_, others.largest_.size());
-    runtime::make_room(summaries_, others.summaries_.size());
-    boxes_.make_room(others.boxes_);
+    if (curves_.size() == 0) return;
+    curves_.make_room(others.curves_.size());
+    numbers_.make_room(others.numbers_.size());
+    boxes_.make_room(others.boxes_.size());
 }
 
 void KeptBounds::take(KeptBounds& others) noexcept {
-    dim_ = std::max(dim_, others.dim_);
-    runtime::move_behind(largest_, others.largest_);
-    runtime::move_behind(summaries_, others.summaries_);
-    boxes_.take(others.boxes_);
+    if (curves_.size() == 0) {
+        curves_.take(others.curves_);
+        std::swap(numbers_, others.numbers_);
+        std::swap(boxes_, others.boxes_);
+        return;
+    }
+    for (std::ptrdiff_t j = 0; j < others.curves_.size(); ++j) {
+        const KeptCurve& curve = others.curves_[j];
+        const std::ptrdiff_t box_numbers = KeptBoxes::count(curve.points, others.dim_);
+        double* const numbers = numbers_.append(numbers_of(others.dim_));
+        std::uint16_t* const boxes = boxes_.append(box_numbers);
+        std::copy_n(curve.numbers, numbers_of(others.dim_), numbers);
+        std::copy_n(curve.boxes, box_numbers, boxes);
+        curves_.push_back({curve.points, numbers, boxes});
+    }
+    others.curves_.clear();
+    others.numbers_ = {};
+    others.boxes_ = {};
 }
 
 PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, const CheckedCurve& P,
@@ -117,16 +149,17 @@ PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, co
       extremes_(active_level().kernels->extremes),
       largest_(P.largest),
       tree_(packed, PointOrder::forward),
+      summary_(static_cast<std::size_t>(4 * packed.dim())),
       they_add_(is_symmetric2()) {
-    append_summary(tree_, summary_);
+    write_summary(tree_, summary_.data());
     if (!is_banded_line()) return;
     reversed_.reserve(packed.size() + kernels::padding);
     std::reverse_copy(packed.data(), packed.data() + packed.size(), reversed_.data());
     std::fill_n(reversed_.data() + packed.size(), kernels::padding, 0.0);
 }
 
-bool PairBounds::is_bounded(std::ptrdiff_t j) const noexcept {
-    return kernel_ != nullptr && RangeScale(std::max(largest_, kept_.largest(j))).is_identity();
+bool PairBounds::is_bounded(const KeptCurve& curve) const noexcept {
+    return kernel_ != nullptr && RangeScale(std::max(largest_, curve.largest())).is_identity();
 }
 
 void PairBounds::finish(double* bounds, std::ptrdiff_t count) const noexcept {
@@ -135,11 +168,11 @@ void PairBounds::finish(double* bounds, std::ptrdiff_t count) const noexcept {
 }
 
 template <class Norm>
-double PairBounds::quick_bound(std::ptrdiff_t j) const noexcept {
-    if (!is_bounded(j)) return 0.0;
+double PairBounds::quick_bound(const KeptCurve& curve) const noexcept {
+    if (!is_bounded(curve)) return 0.0;
     const std::ptrdiff_t dim = tree_.dim();
     const double* const p = summary_.data();
-    const double* const q = kept_.summary(j);
+    const double* const q = curve.summary();
     const double first = options_.open_begin ? 0.0 : distance<Norm>(p, q, dim);
     const double last = options_.open_end ? 0.0 : distance<Norm>(p + dim, q + dim, dim);
     // Some point of the one curve lies so far beyond all points of the other.
@@ -149,7 +182,7 @@ double PairBounds::quick_bound(std::ptrdiff_t j) const noexcept {
         beyond = std::max(beyond, std::max(low, high));
         if (!is_open()) beyond = std::max(beyond, std::max(-low, -high));
     }
-    const bool is_one_cell = tree_.size() == 1 && kept_.points(j) == 1;
+    const bool is_one_cell = tree_.size() == 1 && curve.points == 1;
     const bool is_sum = !is_frechet() && !is_one_cell;
     double bounds[] = {first, last, Norm::finish(Norm::add(0.0, beyond))};
     if (is_sum) {
@@ -158,15 +191,17 @@ double PairBounds::quick_bound(std::ptrdiff_t j) const noexcept {
     }
     double bound = *std::max_element(bounds, bounds + 3);
     if (!is_sum) finish(&bound, 1);
-    return bound / options_.divisor(tree_.size(), kept_.points(j));
+    return bound / options_.divisor(tree_.size(), curve.points);
 }
 
-void PairBounds::quick(double* bounds) const {
-    std::fill_n(bounds, kept_.size(), 0.0);
+void PairBounds::quick(double* bounds, std::ptrdiff_t count) const {
+    std::fill_n(bounds, count, 0.0);
     with_norm(box_metric_, [&](auto norm) {
-        for (std::ptrdiff_t j = 0; j < kept_.size(); ++j) {
-            bounds[j] = quick_bound<decltype(norm)>(j);
-        }
+        kept_.in_parts(count, [&](const KeptCurve* curves, std::ptrdiff_t part) {
+            for (std::ptrdiff_t k = 0; k < part; ++k) {
+                *bounds++ = quick_bound<decltype(norm)>(curves[k]);
+            }
+        });
     });
 }
 
@@ -217,10 +252,10 @@ bool PairBounds::has_ways_through(const PackedCurve& q) const noexcept {
 template <class Norm>
 double PairBounds::run_bound(std::ptrdiff_t j, int level) {
     const BoxLevel P = level_with(tree_, KeptBoxes::most_boxes[KeptBounds::limit_of(level)]);
-    const BoxLevel Q = kept_.boxes(j, level, boxes_);
+    const BoxLevel Q = kept_.boxes(j, level, tree_.dim(), boxes_);
     const std::ptrdiff_t rows = P.count, columns = Q.count, dim = tree_.dim();
     const std::ptrdiff_t row_points = P.points_per_box(), column_points = Q.points_per_box();
-    const std::ptrdiff_t n = tree_.size(), m = kept_.points(j);
+    const std::ptrdiff_t n = tree_.size(), m = kept_[j].points;
     const Band band(n, m, options_.window.between(n, m));
     run_terms_.assign(static_cast<std::size_t>(rows + columns), infinity);
     double* const row_terms = run_terms_.data();
@@ -283,7 +318,7 @@ double PairBounds::undivided(std::ptrdiff_t j, const PackedCurve& q, int level) 
 double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
     const std::ptrdiff_t n = P_.size(), m = q.size();
     const bool is_short = n * m < (is_banded_line() ? fewest_cells_of_lines : fewest_cells);
-    if (!is_bounded(j) || is_short) return 0.0;
+    if (!is_bounded(kept_[j]) || is_short) return 0.0;
     const double bound = undivided(j, q, level);
     if (is_frechet()) return bound;
     return bound * CostSums::slack(n, m) / options_.divisor(n, m);
@@ -311,7 +346,7 @@ void PairBounds::compute_row_terms(std::ptrdiff_t j, const PackedCurve& q) {
         they_add_ = they_add_ || has_ways_through(q);
         return compute_banded_row_terms(j, q);
     }
-    const BoxLevel boxes = kept_.boxes(j, point_level, boxes_);
+    const BoxLevel boxes = kept_.boxes(j, point_level, tree_.dim(), boxes_);
     if (is_line()) {
         const std::ptrdiff_t count = merge(boxes, merged_of_kept_);
         return compute_terms(P_, all_of(merged_of_kept_.data(), count), row_terms_);
@@ -367,7 +402,7 @@ BoxLevel PairBounds::point_level_boxes() const noexcept {
 std::optional<CostToGo> PairBounds::cost_to_go(std::ptrdiff_t j, const PackedCurve& q,
                                                double most) {
     const std::ptrdiff_t n = P_.size(), m = q.size();
-    if (!is_bounded(j) || n * m < fewest_cells || n * m >= most_narrowed_cells ||
+    if (!is_bounded(kept_[j]) || n * m < fewest_cells || n * m >= most_narrowed_cells ||
         options_.open_begin) {
         return std::nullopt;
     }

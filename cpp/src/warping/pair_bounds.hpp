@@ -29,11 +29,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "curves/checks.hpp"
 #include "runtime/aligned_buffer.hpp"
+#include "runtime/growing_list.hpp"
 #include "warping/box_tree.hpp"
 #include "warping/cost_sums.hpp"
 #include "warping/kept_boxes.hpp"
@@ -46,27 +48,38 @@ namespace curvewise::warping {
 
 using curves::CheckedCurve;
 
-// The stored data of each Q besides its points: its ends and its box, one curve behind the other,
-// and its boxes.
+// The stored data of a Q besides its points.
+struct KeptCurve {
+    std::ptrdiff_t points;
+    const double* numbers;  // the largest |coordinate|, then the summary
+    const std::uint16_t* boxes;
+
+    double largest() const noexcept { return numbers[0]; }
+    // The first point, the last, the lowest coordinates, the highest.
+    const double* summary() const noexcept { return numbers + 1; }
+};
+
+// That of every Q. While one thread adds more, others may read what they know of.
 class KeptBounds {
    public:
+    // For these curves, packed with `dim` coordinates.
+    void reserve(const std::vector<CurveView>& curves, std::ptrdiff_t dim);
     void keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrder order);
     // Adds those of `others`, for which room was made, and leaves it empty.
     void make_room(const KeptBounds& others);
     void take(KeptBounds& others) noexcept;
 
-    std::ptrdiff_t size() const noexcept { return boxes_.size(); }
-    std::ptrdiff_t points(std::ptrdiff_t j) const noexcept { return boxes_.points(j); }
-    double largest(std::ptrdiff_t j) const noexcept {
-        return largest_[static_cast<std::size_t>(j)];
+    const KeptCurve& operator[](std::ptrdiff_t j) const noexcept { return curves_[j]; }
+    // Calls use(curves, their number) for consecutive parts of the first `count` curves.
+    template <class Use>
+    void in_parts(std::ptrdiff_t count, Use&& use) const {
+        curves_.in_parts(count, use);
     }
-    // The first point, the last, the lowest coordinates, the highest.
-    const double* summary(std::ptrdiff_t j) const noexcept {
-        return summaries_.data() + j * 4 * dim_;
-    }
-    // Those of a level above 0, in `room`.
-    BoxLevel boxes(std::ptrdiff_t j, int level, BoxRoom& room) const {
-        return boxes_.read(j, limit_of(level), summary(j) + 2 * dim_, dim_, room);
+    // The boxes of a level above 0, in `room`.
+    BoxLevel boxes(std::ptrdiff_t j, int level, std::ptrdiff_t dim, BoxRoom& room) const {
+        const KeptCurve& curve = curves_[j];
+        return KeptBoxes{j, curve.points, curve.boxes}.read(limit_of(level),
+                                                            curve.summary() + 2 * dim, dim, room);
     }
     // The index of a level of the bounds in KeptBoxes::most_boxes: the finest boxes are the last
     // level's.
@@ -75,10 +88,10 @@ class KeptBounds {
     }
 
    private:
-    std::ptrdiff_t dim_ = 0;
-    std::vector<double> largest_;  // |coordinate|
-    std::vector<double> summaries_;
-    KeptBoxes boxes_;
+    std::ptrdiff_t dim_ = 0;  // of those that keep() has added
+    runtime::GrowingList<KeptCurve> curves_;
+    runtime::GrowingRuns<double> numbers_;
+    runtime::GrowingRuns<std::uint16_t> boxes_;
 };
 
 // The boxes of one curve that the band leaves each point of the other, kept while the numbers of
@@ -109,10 +122,10 @@ class PairBounds {
     PairBounds(const WarpingOptions& options, const KeptBounds& kept, const CheckedCurve& P,
                const PackedCurve& packed);
 
-    // Those of level 0, of all kept curves.
-    void quick(double* bounds) const;
+    // Those of level 0, of the first `count` kept curves.
+    void quick(double* bounds, std::ptrdiff_t count) const;
     // Whether the bound of curve j includes the distances of the ends.
-    bool has_looked_at_ends(std::ptrdiff_t j) const noexcept { return is_bounded(j); }
+    bool has_looked_at_ends(std::ptrdiff_t j) const noexcept { return is_bounded(kept_[j]); }
     // That of a level above 0 and curve j, whose points are `q`.
     double refined(std::ptrdiff_t j, const PackedCurve& q, int level);
     // The least cost of the rest of a path, for a sweep that skips cells above `most`, in the unit
@@ -128,11 +141,11 @@ class PairBounds {
     }
 
    private:
-    bool is_bounded(std::ptrdiff_t j) const noexcept;
+    bool is_bounded(const KeptCurve& curve) const noexcept;
     bool is_frechet() const noexcept { return options_.recurrence == kernels::Recurrence::frechet; }
     bool is_open() const noexcept { return options_.open_begin || options_.open_end; }
     template <class Norm>
-    double quick_bound(std::ptrdiff_t j) const noexcept;
+    double quick_bound(const KeptCurve& curve) const noexcept;
     template <class Norm>
     double run_bound(std::ptrdiff_t j, int level);
     double point_bound(std::ptrdiff_t j, const PackedCurve& q);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "curves/range_scale.hpp"
+#include "curves/sphere.hpp"
 #include "curvewise/dtw.hpp"
 #include "curvewise/frechet.hpp"
 #include "pairwise/batch_of.hpp"
@@ -116,6 +117,11 @@ class WarpingMeasure::Beside {
 class WarpingMeasure::Bounds {
    public:
     static constexpr int levels = warping::PairBounds::levels;
+    void reserve(const WarpingMeasure& measure, const std::vector<CurveView>& curves) {
+        if (curves.empty()) return;
+        const bool on_sphere = measure.requirements().on_sphere;
+        kept_.reserve(curves, on_sphere ? curves::sphere_dim : curves[0].dim());
+    }
     void keep(const PreparedQ& Q) { kept_.keep(Q.checked, Q.packed, PointOrder::reversed); }
     void make_room(const Bounds& others) { kept_.make_room(others.kept_); }
     void take(Bounds& others) noexcept { kept_.take(others.kept_); }
@@ -126,7 +132,7 @@ class WarpingMeasure::Bounds {
             : measure_(measure),
               P_(P),
               bounds_(measure.options_, bounds.kept_, P.checked, P.packed) {}
-        void quick(double* bounds) const { bounds_.quick(bounds); }
+        void quick(double* bounds, std::ptrdiff_t count) const { bounds_.quick(bounds, count); }
         double refined(std::ptrdiff_t j, const PreparedQ& Q, int level) {
             return bounds_.refined(j, Q.packed, level);
         }

@@ -153,12 +153,13 @@ class Index:
 
         Notes
         -----
-        O(n) time for each curve. Waits for searches that run in other threads.
+        O(n) time for each curve. Searches that run in other threads go on. They see the curves that
+        were in the index when they began.
         """
         if get_ident() in self._searching:
             raise RuntimeError(
-                "add was called by the progress function of a search in the same index, for whose "
-                "end it would wait; add the curves after the search"
+                "add was called by the progress function of a search in the same index, which does "
+                "not see the curves; add them after the search"
             )
         crs = check_reference_systems(self._options, known=self._crs, curves=curves)
         curves, labels = unlabelled(curves, "curves")

@@ -1,8 +1,12 @@
 // Calls of an Index after it was moved, and calls by the report of its own calls.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -37,8 +41,7 @@ void an_index_that_was_moved_from_is_empty() {
     CHECK_EQUAL(first.size(), std::size_t{3});
 }
 
-// A report may query the index, but not add to it: adding would wait for the end of the call that
-// reports.
+// A report may query the index, but not add to it: the call that reports would not see it.
 void a_report_does_not_wait_for_its_own_call() {
     const Curve P = Random(13).curve(2000, 2);
     Index index({P, P}, DtwOptions{});
@@ -57,8 +60,8 @@ void a_report_does_not_wait_for_its_own_call() {
         return true;
     };
     const char* const message =
-        "add was called by the report of a call of the same index, for whose end it would wait; "
-        "add the curves after that call";
+        "add was called by the report of a call of the same index, which does not see the curves; "
+        "add them after that call";
     const std::chrono::milliseconds often(0);
     double found[2];
     std::int64_t nearest[2];
@@ -107,9 +110,9 @@ void add_gets_in_while_others_ask() {
     }
 }
 
-// add() waits for a search; a Control stops it, and it has added nothing.
-void a_control_stops_an_add_that_waits() {
-    const Curve P = Random(15).curve(300, 2);
+// A search that lasts keeps no other call waiting, and sees the curves that were there at first.
+void a_search_and_an_add_do_not_wait_for_each_other() {
+    const Curve P = Random(15).curve(300, 2), Q = Random(16).curve(20, 2);
     Index index({P, P}, DtwOptions{});
     std::atomic<bool> is_asking{false}, may_end{false};
     Control slow(
@@ -119,30 +122,85 @@ void a_control_stops_an_add_that_waits() {
             return true;
         },
         std::chrono::milliseconds(0));
+    double found[4];
+    std::int64_t nearest[4];
     std::thread search([&] {
-        double found[2];
-        std::int64_t nearest[2];
-        index.kneighbors({P, P}, 1, found, nearest, {}, &slow);
+        index.kneighbors({P, Q}, 2, found, nearest, SearchOptions{}, &slow);
     });
     while (!is_asking) std::this_thread::yield();
-    Control stopped;
-    std::thread watch([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        stopped.stop();
-    });
-    bool has_thrown = false;
-    try {
-        index.add({P}, &stopped);
-    } catch (const Stopped&) {
-        has_thrown = true;
-    }
-    watch.join();
-    CHECK(has_thrown);
+    index.add({Q});
+    CHECK_EQUAL(index.size(), std::size_t{3});
+    double distance = -1.0;
+    std::int64_t place = -1;
+    index.kneighbors({Q}, 1, &distance, &place);
+    CHECK_EQUAL(distance, 0.0);
+    CHECK_EQUAL(place, std::int64_t{2});
     may_end = true;
     search.join();
-    CHECK_EQUAL(index.size(), std::size_t{2});
-    index.add({P});
-    CHECK_EQUAL(index.size(), std::size_t{3});
+    for (int i = 0; i < 4; ++i) CHECK_EQUAL(nearest[i], std::int64_t{i % 2});
+    CHECK_EQUAL(found[2], dtw(Q, P));
+}
+
+// Each curve is nearer to the query than all before. So an answer says how many curves the search
+// has seen: no fewer than there were before it, and no more than after it.
+void check_answers_while_others_add(const Measure& measure) {
+    const std::ptrdiff_t first = 5, all = 400;
+    std::vector<Curve> curves;
+    for (std::ptrdiff_t j = 0; j < all; ++j) {
+        const double up = static_cast<double>(all - j) / static_cast<double>(all);
+        curves.push_back({{0, up}, {0.5, up}, {1, up}});
+        if (j < all / 2) curves.back() = {{0, up}, {0.25, up}, {0.5, up}, {1, up}};
+    }
+    const Curve Q{{0, 0}, {0.5, 0}, {1, 0}};
+    const std::vector<CurveView> views(curves.begin(), curves.end());
+    std::vector<double> expected(views.size());
+    cdist({Q}, views, measure, expected.data());
+    Index index({views.begin(), views.begin() + first}, measure);
+    std::vector<std::thread> asking;
+    std::atomic<bool> is_done{false};
+    for (int t = 0; t < 2; ++t) {
+        asking.emplace_back([&] {
+            double distance[2];
+            std::int64_t place[2];
+            for (bool is_last = false; !is_last;) {
+                is_last = is_done;
+                const auto before = static_cast<std::int64_t>(index.size());
+                index.kneighbors({Q}, 2, distance, place);
+                const std::vector<std::vector<Neighbor>> within =
+                    index.radius_neighbors({Q}, expected[0], {1, false});
+                const auto after = static_cast<std::int64_t>(index.size());
+                CHECK(before <= place[0] + 1 && place[0] < after);
+                for (const int k : {0, 1}) {
+                    CHECK_EQUAL(place[k], place[0] - k);
+                    CHECK_EQUAL(distance[k], expected[static_cast<std::size_t>(place[k])]);
+                }
+                CHECK(within[0].size() > static_cast<std::size_t>(place[0]));
+                for (std::size_t j = 0; j < within[0].size(); ++j) {
+                    CHECK_EQUAL(within[0][j].index, static_cast<std::int64_t>(j));
+                }
+            }
+        });
+    }
+    std::ptrdiff_t next = first;
+    for (std::ptrdiff_t more = 1; next < all; more = more % 7 + 1) {
+        const std::ptrdiff_t end = std::min(next + more, all);
+        index.add({views.begin() + next, views.begin() + end});
+        next = end;
+    }
+    is_done = true;
+    for (std::thread& thread : asking) thread.join();
+    CHECK_EQUAL(index.size(), views.size());
+}
+
+void answers_are_those_of_the_curves_that_were_there() {
+    DtwOptions on_sphere;
+    on_sphere.ground.metric = Metric::haversine;
+    const Measure measures[] = {DtwOptions{}, on_sphere, FrechetOptions{},
+                                FrechetContinuousOptions{}, AreaOptions{}};
+    for (std::size_t k = 0; k < std::size(measures); ++k) {
+        const check::Note note("measure " + std::to_string(k));
+        check_answers_while_others_add(measures[k]);
+    }
 }
 
 }  // namespace
@@ -152,5 +210,8 @@ int main() {
         {{"an index that was moved from is empty", an_index_that_was_moved_from_is_empty},
          {"a report does not wait for its own call", a_report_does_not_wait_for_its_own_call},
          {"add gets in while others ask", add_gets_in_while_others_ask},
-         {"a control stops an add that waits", a_control_stops_an_add_that_waits}});
+         {"a search and an add do not wait for each other",
+          a_search_and_an_add_do_not_wait_for_each_other},
+         {"answers are those of the curves that were there",
+          answers_are_those_of_the_curves_that_were_there}});
 }

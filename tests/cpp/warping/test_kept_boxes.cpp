@@ -65,24 +65,20 @@ void check_boxes(const BoxLevel& read, const BoxLevel& expected, const double* w
 }
 
 void boxes_enclose(std::ptrdiff_t dim, Random& random) {
-    std::vector<Side> sides;
-    KeptBoxes kept, added;
-    for (int i = 0; i < 9; ++i) {
-        sides.emplace_back(some_curve(random, dim));
-        added.keep(sides.back().tree);
-        if (i % 3 != 2) continue;
-        kept.make_room(added);
-        kept.take(added);
-        CHECK_EQUAL(added.size(), 0);
-    }
     BoxRoom room;
-    for (std::ptrdiff_t j = 0; j < kept.size(); ++j) {
-        const BoxTree& tree = sides[static_cast<std::size_t>(j)].tree;
+    for (std::ptrdiff_t j = 0; j < 9; ++j) {
+        const Side side(some_curve(random, dim));
+        const BoxTree& tree = side.tree;
         const check::Note note("curve " + std::to_string(j) + " of " + std::to_string(tree.size()));
         const double* const whole = tree.box(tree.levels() - 1, 0);
-        CHECK_EQUAL(kept.points(j), tree.size());
+        constexpr std::uint16_t unwritten = 40503;
+        const auto count = static_cast<std::size_t>(KeptBoxes::count(tree.size(), dim));
+        std::vector<std::uint16_t> numbers(count + 1, unwritten);
+        KeptBoxes::write(tree, numbers.data());
+        CHECK_EQUAL(numbers[count], unwritten);
+        const KeptBoxes kept{j, tree.size(), numbers.data()};
         for (const std::size_t limit : {1, 0, 2}) {
-            check_boxes(kept.read(j, limit, whole, dim, room),
+            check_boxes(kept.read(limit, whole, dim, room),
                         level_with(tree, KeptBoxes::most_boxes[limit]), whole, dim);
         }
     }

@@ -54,7 +54,8 @@ void bounds_hold(const Options& options, const std::vector<Curve>& curves) {
     }
     const auto memory = targets->make_memory();
     for (const Curve& P : curves) {
-        const auto query = targets->query(CheckedCurve(P, "P", poller, on_sphere), poller);
+        const auto query =
+            targets->query(CheckedCurve(P, "P", poller, on_sphere), targets->seen(), poller);
         std::vector<double> quick(curves.size());
         query->quick(quick.data());
         for (std::size_t j = 0; j < curves.size(); ++j) {
