@@ -106,7 +106,8 @@ def inherit(function: Callable[..., Any], measure: Callable[..., Any]) -> None:
     """Give a function of the reference the docstring of the measure that it computes.
 
     The docstring that the function has in its source becomes the Notes. The examples call the
-    reference instead of the package, and parameters that only the measures have are left out.
+    reference instead of the package. Left out are "See Also", which names the package, and
+    parameters that only the measures have.
     """
     doc, notes = inspect.getdoc(measure), inspect.getdoc(function)
     if doc is None or notes is None:  # python -OO
@@ -115,6 +116,7 @@ def inherit(function: Callable[..., Any], measure: Callable[..., Any]) -> None:
         if name not in inspect.signature(function).parameters:
             doc = doc.replace(f"{_SHARED[name]}\n", "").replace(f", {name}\n", "\n")
     head, _, tail = doc.partition("\nNotes\n-----\n")
+    head = head.partition("\nSee Also\n")[0]
     examples = tail[tail.index("\n\nExamples\n") :]
     examples = examples.replace("import curvewise\n", "from curvewise import reference\n")
     examples = examples.replace("curvewise.", "reference.")
