@@ -104,14 +104,19 @@ def test_extreme_scales_beside_usual_ones(measure, power):
             np.testing.assert_array_equal(curvewise.pdist(curves, measure, metric=metric), expected)
 
 
-def test_a_cutoff_gives_inf_above_it():
-    curves = walks([30] * 50)
-    for options in ({}, {"window": 1}):
-        values = curvewise.pdist(curves, "dtw", **options)
-        cutoff = float(np.median(values))
-        assert cutoff in values or len(values) % 2 == 0
+@pytest.mark.parametrize("share", [0.0, 0.01, 0.3, 1.0])
+@pytest.mark.parametrize(
+    ("measure", "options"),
+    [*OPTIONS, ("dtw", {"window": 1}), ("dtw", {"window": 4, "metric": "sqeuclidean"})],
+)
+def test_a_cutoff_gives_inf_above_it(measure, options, share):
+    """A value equal to the cutoff stays, and so do its bits."""
+    for curves in (walks([30] * 50), walks([30] * 9, 2), walks([*range(40, 48)] * 4)):
+        values = curvewise.pdist(curves, measure, **options)
+        cutoff = float(np.quantile(values, share, method="nearest"))
+        assert cutoff in values
         expected = np.where(values > cutoff, np.inf, values)
-        got = curvewise.pdist(curves, "dtw", cutoff=cutoff, **options)
+        got = curvewise.pdist(curves, measure, cutoff=cutoff, **options)
         np.testing.assert_array_equal(got, expected)
 
 
