@@ -29,8 +29,8 @@ from curvewise.curves.named_curve import NamedCurve
 NOISY = with_noise(model(TRUE), 4.0, seed=1)
 ONE_RUN = {"max_runs": 1, "progress": False}
 EFFECTS = {
-    "curve_length": "curve_length takes noise for length",
-    "pcm": "pcm takes noise for length",
+    "curve_length": "noise increases the lengths that curve_length compares",
+    "pcm": "noise increases the lengths that pcm compares",
     "frechet": "frechet is decided by the one point that noise moves most",
 }
 REMEDY = ": filter the test (curvewise.curves.smooth), or take another measure"

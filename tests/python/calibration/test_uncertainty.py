@@ -295,17 +295,17 @@ def test_a_bias_is_measured_and_said():
     truth = {"E": 200e3, "yield": 300.0, "C": 80e3}
     keywords = {"start": truth, **QUIET}
     test = with_noise(hardening(truth), 5.0, seed=2)
-    with pytest.warns(NoisyTestWarning, match="curve_length takes noise for length"):
+    with pytest.warns(NoisyTestWarning, match="noise increases the lengths"):
         biased = identify(hardening, test, THREE, measure="curve_length", **keywords)
     uncertainty = biased.uncertainty(samples=60, sigma=5.0)
     assert uncertainty.bias["yield"] > 0.25 * uncertainty.standard_errors["yield"]
     assert "; the intervals include only a part of it" in str(uncertainty)
-    assert "curve_length takes noise for length: filter the test" in str(uncertainty)
+    assert "that curve_length compares: filter the test" in str(uncertainty)
     fair = identify(hardening, test, THREE, measure="dtw", **keywords)
     uncertainty = fair.uncertainty(samples=60, sigma=5.0)
     for name, bias in uncertainty.bias.items():
         assert abs(bias) < 0.25 * uncertainty.standard_errors[name]
-    assert "takes noise for length" not in str(uncertainty)
+    assert "noise increases the lengths" not in str(uncertainty)
 
 
 def test_pictures_and_errors():

@@ -25,8 +25,8 @@ __all__ = ["NoisyTestWarning", "advice_against_noise", "estimated_noise", "warn_
 
 # The effect of noise on the measures that do not average it out.
 _EFFECTS = {
-    "curve_length": "curve_length takes noise for length",
-    "pcm": "pcm takes noise for length",
+    "curve_length": "noise increases the lengths that curve_length compares",
+    "pcm": "noise increases the lengths that pcm compares",
     "frechet": "frechet is decided by the one point that noise moves most",
 }
 _BY_LENGTH = ("curve_length", "pcm")

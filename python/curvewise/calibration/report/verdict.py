@@ -114,7 +114,7 @@ def _distance(loop: Loop) -> str:
         said += f", {of} of the test's range of {name}"
     said += f"; {digits(misfit.largest, 2)}{after} at most."
     if misfit.scatter is not None and misfit.scatter >= SCATTERED:
-        said += " It looks like scatter of the test."
+        said += " It looks like noise of the test."
     elif misfit.scatter is not None and misfit.scatter <= SYSTEMATIC:
         said += " It is systematic: the model does not follow the test."
     return said
@@ -146,7 +146,7 @@ def _parameters(search: ShownSearch, usable: Mapping[str, bool]) -> list[str]:
         said = [f"{name} = {digits(values[name], 4)}{_half(summary, name)}" for name in good]
         lines.append(f"Use: {', '.join(said)} ({100 * summary['level']:g} % intervals).")
     else:
-        lines.append("Use: no parameter by itself.")
+        lines.append("Use: no single parameter.")
     doubted: set[str] = set()
     for doubt in ending.doubts:
         said = [f"{name}{_range(summary, name)}" for name in doubt.names]
