@@ -103,10 +103,10 @@ def dtw(
 
     See Also
     --------
-    dtw_path : The warping path, and the distance.
-    cdist : Distances between many curves.
-    subsequence : The best parts of a long record.
-    frechet : The largest distance of paired points instead of the sum.
+    curvewise.dtw_path : The warping path, and the distance.
+    curvewise.cdist : Distances between many curves.
+    curvewise.subsequence : The best parts of a long record.
+    curvewise.frechet : The largest distance of paired points instead of the sum.
 
     Notes
     -----

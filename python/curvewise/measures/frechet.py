@@ -65,10 +65,10 @@ def frechet(
 
     See Also
     --------
-    frechet_path : The paired points, and the distance.
-    frechet_continuous : The distance with the edges of the curves.
-    cdist : Distances between many curves.
-    dtw : The sum of the distances of paired points.
+    curvewise.frechet_path : The paired points, and the distance.
+    curvewise.frechet_continuous : The distance with the edges of the curves.
+    curvewise.cdist : Distances between many curves.
+    curvewise.dtw : The sum of the distances of paired points.
 
     Notes
     -----
