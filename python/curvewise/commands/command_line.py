@@ -17,6 +17,7 @@ import warnings
 from collections.abc import Sequence
 from typing import Any
 
+from .._option_names import named_by
 from ..installation import build_info, get_cmake_dir, get_include
 from .compare import add_compare
 from .demo import add_demo
@@ -25,6 +26,7 @@ from .flow import add_flow
 from .identify import add_identify
 from .info import add_info
 from .overlay import add_overlay
+from .reading import flags_of
 from .report import add_report
 from .selfcheck import add_selfcheck
 
@@ -61,7 +63,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         try:
             arguments = _parser().parse_args(argv)
-            with warnings.catch_warnings():
+            with warnings.catch_warnings(), named_by(flags_of(vars(arguments))):
                 warnings.showwarning = _show_warning
                 status: int = arguments.run(arguments)
             return status

@@ -17,6 +17,7 @@ from ..curves.common_span import common_span
 from ..measures import curve_length_residuals, normalize
 from ..measures.registry import MEASURES, PRESETS
 from .passing import add_limits, checked, measures_with_limits
+from .questions_of_two import ask_about_units, warn_of_beginning
 from .reading import add_for_two, prepared_file, said_of_two, warnings_printed
 from .shown import print_table, require_matplotlib, write_picture
 
@@ -116,6 +117,8 @@ def _compare(arguments: argparse.Namespace) -> int:
     factors = [one.numbers() for one in said]
     with warnings_printed():
         tests, names = zip(*map(prepared_file, files, said), strict=True)
+        ask_about_units(files, said, tests)
+        warn_of_beginning(said, tests)
     measures = measures_with_limits(arguments)
     try:
         with warnings_printed():

@@ -15,7 +15,14 @@ from ..curves.inputs import Array
 from ..files.column_units import factor_of, in_mpa
 from ..materials import MATERIALS
 from ..solvers.cards import FORMATS
-from .reading import Said, add_repeated, prepared_file, said_of_each, warnings_printed
+from .reading import (
+    ColumnsError,
+    Said,
+    add_repeated,
+    prepared_file,
+    said_of_each,
+    warnings_printed,
+)
 from .shown import failures_unlogged, require_matplotlib
 
 if TYPE_CHECKING:
@@ -238,7 +245,14 @@ def _test(file: str, said: Said, units: str) -> Array | PreparedTest:
         if doubt := doubt_of(test, units):
             raise ValueError(doubt.asked("command"))
 
+    asked = ask if said.factors is None else None
     try:
-        return prepared_file(file, said, units, ask if said.factors is None else None)[0]
+        return prepared_file(file, said, units, asked)[0]
+    except ColumnsError as question:
+        try:  # which question would come next
+            prepared_file(file, said._replace(columns=question.wanted), units, asked)
+        except ValueError as error:
+            raise ValueError(f"{question}. Of these, {error}") from None
+        raise
     except ValueError as error:
         raise ValueError(f"{error}" if file in str(error) else f"{file}: {error}") from None

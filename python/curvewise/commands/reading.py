@@ -16,6 +16,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from .._option_names import command_of, named_by, with_values
 from ..curves.inputs import Array
 from ..files.column_choice import TimeColumnWarning
 from ..files.column_units import factor_of
@@ -27,9 +28,12 @@ if TYPE_CHECKING:
     from ..fitting import PreparedTest
 
 __all__ = [
+    "ColumnsError",
     "Said",
     "add_for_two",
     "add_repeated",
+    "flags_of",
+    "named_for",
     "prepared_file",
     "read_file",
     "said_of_each",
@@ -86,6 +90,8 @@ class Said(NamedTuple):
     preparation : dict
         Keywords of `curvewise.fitting.prepare`.
     cycle_column : str, or None
+    ending : str
+        The ending of the options that are for this file alone: "-a", "-b" or none.
     """
 
     columns: Sequence[str | int] | None
@@ -93,6 +99,7 @@ class Said(NamedTuple):
     reading: Reading
     preparation: dict[str, Any]
     cycle_column: str | None
+    ending: str = ""
 
     def numbers(self, units: str = "MPa") -> list[float] | None:
         """Return the factors as numbers, those of stresses for a unit of stress."""
@@ -165,7 +172,40 @@ def said_of_two(arguments: argparse.Namespace) -> list[Said]:
         for one, ending in zip(both, "ab", strict=True):
             own = given[f"{option.word}_{ending}"]
             one[option.name] = given[option.word] if own is None else own
-    return list(map(_said, both))
+    each = []
+    for one, ending in zip(both, ("-a", "-b"), strict=True):
+        with named_for(ending):
+            each.append(_said(one)._replace(ending=ending))
+    return each
+
+
+def flags_of(given: Mapping[str, Any], ending: str = "") -> Callable[[str], str | None]:
+    """Return what names the options of a command, for `named_by`.
+
+    Parameters
+    ----------
+    given : mapping
+        The options of the command, by their names in Python.
+    ending : str
+        The ending of options that are for one of two files.
+    """
+
+    def flag(name: str) -> str | None:
+        word = name.rstrip("_")
+        return f"--{word.replace('_', '-')}{ending}" if word in given else None
+
+    return flag
+
+
+@contextlib.contextmanager
+def named_for(ending: str) -> Iterator[None]:
+    """Name the options of a file in messages by their ending for this file, if it has one."""
+    if not ending:
+        yield
+        return
+    own = flags_of(dict.fromkeys(option.word for option in _OPTIONS), ending)
+    with named_by(own):
+        yield
 
 
 def _said(values: Mapping[str, Any]) -> Said:
@@ -176,6 +216,14 @@ def _said(values: Mapping[str, Any]) -> Said:
     preparation = {one.name: given[one.name] for one in PREPARATION if one.name in given}
     columns, factors, cycle_column = map(given.get, ("columns", "factors", "cycle_column"))
     return Said(columns, factors, Reading(**reading), preparation, cycle_column)
+
+
+class ColumnsError(ValueError):
+    """The columns of a file are to be named; `wanted` are the likely ones."""
+
+    def __init__(self, question: str, wanted: Sequence[str]) -> None:
+        super().__init__(question)
+        self.wanted = wanted
 
 
 @contextlib.contextmanager
@@ -204,6 +252,14 @@ def prepared_file(
     asked : callable, optional
         Called with strain and stress before their zero is corrected; it may raise ValueError.
     """
+    with named_for(said.ending):
+        return _prepared(file, said, units, asked)
+
+
+def _prepared(
+    file: str, said: Said, units: str, asked: Callable[[Any], None] | None
+) -> tuple[Array | PreparedTest, list[str]]:
+    """Read and prepare a file whose options have their names."""
     curve, names = read_file(file, said, units)
     if not said.preparation and said.cycle_column is None:
         if asked is not None:
@@ -237,5 +293,9 @@ def read_file(file: str, said: Said, units: str = "MPa") -> tuple[Array, list[st
         try:
             return read_named_columns(file, said.columns, said.reading, factors=said.numbers(units))
         except TimeColumnWarning as guessed:
-            wanted = shlex.join(guessed.wanted)
-            raise ValueError(f"{guessed.found}; name those wanted: --columns {wanted}") from None
+            wanted = with_values("columns", guessed.wanted)
+            more = ""
+            if guessed.counter and (flag := command_of("cycle_column")):
+                more = f", and {flag} {shlex.quote(guessed.counter)} if it leaves out cycles"
+            question = f"{guessed.found}; name those wanted: {wanted}{more}"
+            raise ColumnsError(question, guessed.wanted) from None

@@ -11,6 +11,7 @@ import numpy as np
 
 from .._core import is_symmetric
 from .._docstrings import filled
+from .._option_names import with_values
 from .._options import Default, Missing, Preset, check_choice
 from ..curves.column_roles import is_time
 from ..curves.foreign_curves import warn
@@ -298,7 +299,7 @@ def _warn_of_time(P: Array, Q: Array, names: Sequence[Any], measures: Sequence[s
         column = repr(names[times[0]]) if by_name else f"{times[0] + 1} of {P.shape[1]}"
         warn(
             f"column {column} counts as a coordinate, and looks like time; leave it out of P and Q,"
-            f" or say measures={list(measures)} if it shall count"
+            f" or say {with_values('measures', list(measures))} if it shall count"
         )
 
 

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from itertools import pairwise, takewhile
 from typing import Any
 
-__all__ = ["are_coordinates", "are_names", "coordinates_among", "is_time"]
+__all__ = ["are_coordinates", "are_names", "coordinates_among", "counts_cycles", "is_time"]
 
 # "time", "Time [s]", "t (s)", "time_s", "Step Time", "Zeit/s"; not "T" (temperature), "timeout".
 _TIME = re.compile(
@@ -23,6 +23,10 @@ _TIME = re.compile(
 # "id", "track_id", "Point No"; and what pandas calls an index that it read from a file.
 _COUNT = re.compile(
     r"(?i)(?:.*[ _])?(?:id|index|no|nr|number|frame|sample|row|point|step)|unnamed: \d+|level_\d+"
+)
+# "Cycle", "Total Cycles", "cycle_no", "Zyklus", "Zyklen [-]".
+_CYCLE = re.compile(
+    r"(?i)(?:\w+[ _])?(?:cycles?|zykl(?:us|en))(?:[ _](?:no\.?|nr\.?|number|count))?"
 )
 _COMPONENT = re.compile(r"[xyz]{2}|[xyz]?\d+")
 _ON_EARTH = {
@@ -34,6 +38,13 @@ _ON_EARTH = {
 def is_time(name: Any) -> bool:
     """Return whether a column is time by its name, with or without a unit."""
     return isinstance(name, str) and _TIME.fullmatch(name.strip()) is not None
+
+
+def counts_cycles(name: Any) -> bool:
+    """Return whether a column counts cycles by its name, with or without a unit in brackets."""
+    if not isinstance(name, str):
+        return False
+    return _CYCLE.fullmatch(re.split(r"[\[(/,]", name)[0].strip()) is not None
 
 
 def are_coordinates(names: Sequence[Any]) -> bool:

@@ -25,6 +25,7 @@ __all__ = [
     "known_file",
     "known_names",
     "labels_of",
+    "name_of_test",
     "renamed",
 ]
 
@@ -156,6 +157,11 @@ def known_names(*curves: Any) -> tuple[str, ...]:
 def known_file(curve: Any) -> str:
     """Return the name of the file that a curve was read from; empty if that is not known."""
     return curve.file if isinstance(curve, NamedCurve) else ""  # a frame may have such a column
+
+
+def name_of_test(test: Any, i: int) -> str:
+    """Return the file of a test, also of a prepared one, or its place in `tests`, for messages."""
+    return known_file(getattr(test, "curve", test)) or f"tests[{i}]"
 
 
 def labels_of(dim: int, names: Sequence[str] | None, P: Any, Q: Any) -> Labels:

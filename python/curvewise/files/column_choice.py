@@ -1,6 +1,6 @@
 """Selects the columns of a file by name or by number, for every kind of file.
 
-By default the first two columns are used, with a warning if they are time and something else.
+By default the first two columns are used, with a warning if the first is time or counts cycles.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from .._names import did_you_mean
-from ..curves.column_roles import is_time
+from .._option_names import called, with_values
+from ..curves.column_roles import counts_cycles, is_time
 from ..curves.foreign_curves import warn
 from .column_units import TIMES, bare_name, unit_of
 
@@ -29,7 +30,7 @@ _DIGITS = 18  # of a number of a column; Python refuses to read numbers of thous
 
 
 class TimeColumnWarning(UserWarning):
-    """The first two columns of a file are taken, the first is time, and there are more.
+    """The first two columns are taken, the first is time or counts cycles, and there are more.
 
     Attributes
     ----------
@@ -37,10 +38,15 @@ class TimeColumnWarning(UserWarning):
         Which file, and which columns.
     wanted : list of str
         The columns called strain and stress, or the two columns after time.
+    counter : str
+        The first column if it counts cycles, else "".
     """
 
-    def __init__(self, found: str, wanted: list[str]) -> None:
-        super().__init__(f"{found}; name those wanted, for example columns={wanted}")
+    def __init__(self, found: str, wanted: list[str], counter: str = "") -> None:
+        super().__init__(
+            f"{found}; name those wanted, for example {with_values('columns', wanted)}"
+        )
+        self.counter = counter
         self.found = found
         self.wanted = wanted
 
@@ -78,18 +84,20 @@ def choose_columns(
     Warns
     -----
     TimeColumnWarning
-        If the first two of several columns are used, and the first is time.
+        If the first two of several columns are used, and the first is time or counts cycles.
     """
     if columns is None:
-        if width > 2 and names and (is_time(names[0]) or _unit(names[0], units) in TIMES):
+        counter = names[0] if names and counts_cycles(names[0]) else ""
+        is_other = names and (counter or is_time(names[0]) or _unit(names[0], units) in TIMES)
+        if width > 2 and is_other:
             others = [column_name(names, column) for column in range(1, width)]
             found = f"the first two of the {width} columns of {file} are {names[0]} and {others[0]}"
-            warn(TimeColumnWarning(found, _likely(others)))
+            warn(TimeColumnWarning(found, _likely(others), counter))
         return list(range(min(2, width)))
     if isinstance(columns, str):
-        raise TypeError(f"columns is {columns!r}; give a list, even for one column")
+        raise TypeError(f"{called('columns')} is {columns!r}; give a list, even for one column")
     if len(columns) == 0:
-        raise ValueError("columns is empty; name at least one column")
+        raise ValueError(f"{called('columns')} is empty; name at least one column")
     return [_find_column(file, names, width, column) for column in columns]
 
 

@@ -33,7 +33,7 @@ STRAINS = {
     **dict.fromkeys(("‰", "permille", "mm/m", "millistrain", "mε"), 1e-3),
     **dict.fromkeys(("μm/m", "um/m", "με", "μe", "ue", "microstrain", "μstrain", "ustrain"), 1e-6),
 }
-# Stresses, forces and lengths in MPa, N and mm.
+# Stresses, forces, lengths and times in MPa, N, mm and s.
 STRESSES = {
     **dict.fromkeys(("mpa", "n/mm2", "n/mm^2", "n/mm**2", "mn/m2", "mn/m^2"), 1.0),
     **dict.fromkeys(("gpa", "kn/mm2", "kn/mm^2"), 1e3),
@@ -46,7 +46,7 @@ LENGTHS = {
     **dict.fromkeys(("μm", "um"), 1e-3),
     **dict.fromkeys(("in", "inch"), 25.4),
 }
-TIMES = ("s", "sec", "ms", "min", "h")
+TIMES = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0}
 VOLTAGES = ("v", "mv")
 _OTHERS = ("hz", "°c", "k", "cycles")
 _KNOWN = {*STRAINS, *STRESSES, *FORCES, *LENGTHS, *TIMES, *VOLTAGES, *_OTHERS}

@@ -13,6 +13,7 @@ from typing import Literal
 
 import numpy as np
 
+from .._option_names import called
 from ..curves.inputs import Array
 from ..curves.named_curve import NamedCurve
 from .column_units import titled
@@ -136,7 +137,7 @@ def read_curve(
     Warns
     -----
     TimeColumnWarning
-        If `columns` is not given, the first column is time by its name, and there are three or
+        If `columns` is not given, the first column is time or counts cycles, and there are three or
         more.
     UserWarning
         If `skip_invalid` has omitted rows.
@@ -223,11 +224,11 @@ def read_named_columns(
     given = np.asarray(factors, dtype=np.float64)
     if given.shape != values.shape[1:]:
         raise ValueError(
-            f"factors has shape {given.shape}; {os.fspath(path)} gives {values.shape[1]} columns, "
-            "and each needs one"
+            f"{called('factors')} has shape {given.shape}; {os.fspath(path)} gives "
+            f"{values.shape[1]} columns, and each needs one"
         )
     if not (np.isfinite(given).all() and given.all()):
-        raise ValueError(f"factors is {given.tolist()}; each must be finite and not 0")
+        raise ValueError(f"{called('factors')} is {given.tolist()}; each must be finite and not 0")
     changed = [
         name if factor == 1.0 else f"{name} × {factor:.10g}"
         for name, factor in zip(titles, given.tolist(), strict=True)
@@ -246,7 +247,8 @@ def _read_columns(
         return read_sheet_columns(path, columns, reading)
     if reading.sheet is not None:
         raise ValueError(
-            f"sheet is {reading.sheet!r}, and {os.fspath(path)} is not a workbook; omit sheet"
+            f"{called('sheet')} is {reading.sheet!r}, and {os.fspath(path)} is not a workbook; "
+            f"omit {called('sheet')}"
         )
     if kind == ".mat":
         from .mat_curves import read_mat_columns

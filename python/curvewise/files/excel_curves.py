@@ -18,6 +18,7 @@ from importlib import import_module
 from typing import Any
 
 from .._extras import extra, foreign_reader
+from .._option_names import called
 from ..curves.inputs import Array
 from .column_choice import choose_columns, choose_names, column_name, column_unit
 from .column_units import units_row
@@ -42,7 +43,8 @@ def read_sheet_columns(
     file = os.fspath(path)
     if reading.encoding is not None:
         raise ValueError(
-            f"encoding is {reading.encoding!r}, and {file} is a workbook; leave encoding out"
+            f"{called('encoding')} is {reading.encoding!r}, and {file} is a workbook; leave "
+            f"{called('encoding')} out"
         )
     sheet = 1 if reading.sheet is None else reading.sheet
     title, titles, numbered = _numbered_rows(path, file, sheet)
@@ -53,7 +55,7 @@ def read_sheet_columns(
             raise
         raise ValueError(
             f"{error}; the sheets of the workbook are {', '.join(map(repr, titles))}: name the one "
-            "with the curve (sheet)"
+            f"with the curve ({called('sheet')})"
         ) from None
 
 

@@ -11,6 +11,7 @@ import codecs
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple, TypeAlias
 
+from .._option_names import called
 from .number_texts import SIGNS
 
 __all__ = ["CYCLE_COLUMN", "PREPARATION", "READING", "FileOption", "Kind", "Reading"]
@@ -129,16 +130,23 @@ class Reading:
 
     def __post_init__(self) -> None:
         if self.decimal not in (None, *SIGNS):
-            raise ValueError(f"decimal is {self.decimal!r}; choose from '.' and ','")
+            raise ValueError(f"{called('decimal')} is {self.decimal!r}; choose from '.' and ','")
         if self.until == "":
-            raise ValueError("until is empty; give a text of the row before which the curve ends")
+            raise ValueError(
+                f"{called('until')} is empty; give a text of the row before which the curve ends"
+            )
         if self.from_ == "":
-            raise ValueError("from is empty; give a text of the row with which the table begins")
+            raise ValueError(
+                f"{called('from_')} is empty; give a text of the row with which the table begins"
+            )
         if self.header_row is not None and self.header_row < 1:
-            raise ValueError(f"header_row is {self.header_row}; rows are numbered from 1")
+            raise ValueError(
+                f"{called('header_row')} is {self.header_row}; rows are numbered from 1"
+            )
         if self.from_ is not None and self.header_row is not None:
             raise ValueError(
-                f"from is {self.from_!r} and header_row is {self.header_row}; give one of them"
+                f"{called('from_')} is {self.from_!r} and {called('header_row')} is "
+                f"{self.header_row}; give one of them"
             )
         if self.encoding is not None:
             _check_encoding(self.encoding)
@@ -147,8 +155,8 @@ class Reading:
     def begins_later(self) -> str:
         """The option that says where the table begins, with its value, or ""."""
         if self.from_ is not None:
-            return f"from is {self.from_!r}"
-        return "" if self.header_row is None else f"header_row is {self.header_row}"
+            return f"{called('from_')} is {self.from_!r}"
+        return "" if self.header_row is None else f"{called('header_row')} is {self.header_row}"
 
 
 def _check_encoding(name: Any) -> None:
@@ -158,5 +166,6 @@ def _check_encoding(name: Any) -> None:
         "".encode(name)
     except (LookupError, TypeError, ValueError):
         raise ValueError(
-            f"encoding is {name!r}, which Python does not know; give one such as 'gbk' or 'cp1251'"
+            f"{called('encoding')} is {name!r}, which Python does not know; give one such as 'gbk' "
+            "or 'cp1251'"
         ) from None

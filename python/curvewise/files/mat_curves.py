@@ -17,6 +17,7 @@ from importlib import import_module
 import numpy as np
 
 from .._extras import extra
+from .._option_names import called
 from ..curves.inputs import Array
 from .column_choice import choose_columns
 from .file_options import Reading
@@ -33,7 +34,7 @@ def read_mat_columns(
     """Read columns of the arrays of a .mat file, their names, and no units."""
     file = os.fspath(path)
     if reading.begins_later or reading.encoding:
-        given = reading.begins_later or f"encoding is {reading.encoding!r}"
+        given = reading.begins_later or f"{called('encoding')} is {reading.encoding!r}"
         raise ValueError(f"{given}, and {file} is a file of MATLAB without rows; leave it out")
     found = _columns(file)
     if not found:

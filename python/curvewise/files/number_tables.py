@@ -15,6 +15,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from .._option_names import called
 from ..curves.foreign_curves import warn
 from ..curves.inputs import Array
 from .column_choice import asked_names, names_in
@@ -65,7 +66,9 @@ class NumberTable:
             If rows are omitted.
         """
         decimal, groups = self._decimal(chosen)
-        points, wrong, empty, first_gap = [], [], [], ""
+        points: list[list[float]] = []
+        wrong: list[int] = []
+        empty, first_gap = [], ""
         for number, cells in self.rows():
             point, problem = [], ""
             for column in chosen:
@@ -73,7 +76,8 @@ class NumberTable:
                 value = to_number(cell, decimal)
                 self._check_decimal(cell, value, decimal, groups, chosen)
                 if value is None or not math.isfinite(value):
-                    fault = _fault(cell, value, is_alone=len(_filled(cells)) == 1)
+                    is_first = not points and not wrong
+                    fault = _fault(cell, value, len(_filled(cells)) == 1, is_first)
                     problem = problem or f"{self._place(number, column)}: {fault}"
                 else:
                     point.append(value)
@@ -126,8 +130,9 @@ class NumberTable:
             return
         raise ValueError(
             f"{self.file}, {self.row} {number}: {_shown(', '.join(words))} seems to be the header "
-            "of a second table; begin with it (from), end the curve before it (until), or name the "
-            "columns of the one that is meant (columns)"
+            f"of a second table; begin with it ({called('from_')}), end the curve before it "
+            f"({called('until')}), or name the columns of the one that is meant "
+            f"({called('columns')})"
         )
 
     def _decimal(self, chosen: Sequence[int]) -> tuple[str, bool]:
@@ -148,7 +153,8 @@ class NumberTable:
             number, column, cell = doubtful[","]
             raise ValueError(
                 f"{self._place(number, column)}: {cell!r} may be {cell.replace(',', '.')} or "
-                f"{cell.replace(',', '')}; say which is the decimal sign (decimal)"
+                f"{cell.replace(',', '')}; say which is the decimal sign "
+                f"({called('decimal')})"
             )
         return next(iter(doubtful)), False
 
@@ -181,7 +187,7 @@ class NumberTable:
         raise ValueError(
             f"{self.file}: {self.row} {lines[',']} has a number with a comma and "
             f"{self.row} {lines['.']} one with a point; use one decimal sign, or say which it is "
-            "(decimal)"
+            f"({called('decimal')})"
         )
 
 
@@ -204,17 +210,22 @@ def count_cells(cells: Sequence[Any]) -> int:
     return count
 
 
-def _fault(cell: Any, value: float | None, *, is_alone: bool) -> str:
-    """Describe the fault of a cell, which may be the only filled one of its row."""
+def _fault(cell: Any, value: float | None, is_alone: bool, is_first: bool) -> str:
+    """Describe the fault of a cell: of the only filled one of its row, or of the first row."""
     if value is not None:
         return f"{_shown(cell)} is {value}; curves must be finite"
     fault = "the cell is missing" if cell == "" else f"{_shown(cell)} is not a number"
     if is_alone and re.search(r"[^\W\d_]{2}", str(cell)) and not may_be_number(cell):
         return (
-            f"{fault}; if a second table begins here, begin with it (from) or end the curve before "
-            "it (until); if not, leave the row out (skip_invalid)"
+            f"{fault}; if a second table begins here, begin with it ({called('from_')}) or end the "
+            f"curve before it ({called('until')}); if not, leave the row out "
+            f"({called('skip_invalid')})"
         )
-    return f"{fault}; correct it, end the curve before it (until), or leave it out (skip_invalid)"
+    columns = f"name other columns ({called('columns')}), " if is_first else ""
+    return (
+        f"{fault}; correct it, {columns}end the curve before it ({called('until')}), or leave it "
+        f"out ({called('skip_invalid')})"
+    )
 
 
 def _shown(cell: Any) -> str:
@@ -240,7 +251,7 @@ def begin_of_table(file: str, row: str, rows: Sequence[tuple[int, str]], reading
         if found is None:
             raise ValueError(
                 f"{file} has no {row} that contains {text!r}; give a text of the {row} with which "
-                "the table begins (from)"
+                f"the table begins ({called('from_')})"
             )
         return found
     if (number := reading.header_row) is not None:
@@ -248,7 +259,7 @@ def begin_of_table(file: str, row: str, rows: Sequence[tuple[int, str]], reading
         if found is None:
             raise ValueError(
                 f"{file}: {row} {number} is empty, or below the end; give the number of the {row} "
-                "that has the names of the columns (header_row)"
+                f"that has the names of the columns ({called('header_row')})"
             )
         return found
     return 0

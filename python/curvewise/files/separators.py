@@ -11,6 +11,7 @@ import csv
 import re
 from collections.abc import Sequence
 
+from .._option_names import called, with_values
 from .number_texts import BLANKS_IN_NUMBERS, SIGNS, is_grouped, plain, to_number
 
 __all__ = ["BLANKS", "cells_of", "choose_separator", "refuse_doubtful_cells"]
@@ -134,13 +135,14 @@ def refuse_doubtful_cells(
     if separator is BLANKS and (zeros or _may_be_joined(lines, counts, BLANKS, last)):
         what = "blanks of {} may stand between thousands or between cells; write numbers without "
         what += "blanks, or name the columns in the line above"
-        what += "" if zeros else f", or give columns={[1, max(counts)]} if they are cells"
+        if not zeros:
+            what += f", or give {with_values('columns', [1, max(counts)])} if they are cells"
     elif (separator, decimal) == (",", None) and (
         _may_be_joined(lines, counts, ",", last)
         or (2 * last <= max(counts) + 1 and _may_be_split(rows, names))
     ):
         what = "commas of {} may separate cells or stand in numbers; say which is the decimal sign "
-        what += "(decimal), or name the columns in the line above"
+        what += f"({called('decimal')}), or name the columns in the line above"
     else:
         return
     raise ValueError(f"{place}: the {what.format(_shown(lines[0].strip()))}")

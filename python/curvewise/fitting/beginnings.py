@@ -15,8 +15,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .._option_names import instead
 from ..curves.checks import branch_slices
 from ..curves.inputs import Array
+from ..curves.named_curve import name_of_test
 from ..curves.stress_strain import shift_to_origin
 from ..curves.turns import turning_points
 from ..materials.readings import offset_yield, reading_of, strain_and_stress
@@ -40,6 +42,7 @@ _MOST, _SEEN = 0.08, 0.012
 _MOST_TOE, _SEEN_TOE = 0.12, 0.03
 _NOISE = 4.0  # times its standard error
 _STEEPEST = 1.3  # times the modulus that was read
+_EFFECT = ": parameters may be off by more than their intervals"
 
 
 class BeginningError(ValueError):
@@ -137,7 +140,7 @@ def beginning_of(test: Any, name: str) -> Beginning:
     )
 
 
-def check_beginnings(tests: Sequence[Any], units: str) -> str:
+def check_beginnings(tests: Sequence[Any], units: str, *, effect: str = _EFFECT) -> str:
     """Refuse tests that do not begin at the origin, and report those that nearly do.
 
     Parameters
@@ -146,6 +149,8 @@ def check_beginnings(tests: Sequence[Any], units: str) -> str:
         Strain and stress of each.
     units : str
         The unit of the stresses.
+    effect : str
+        What an offset may do, for the sentences.
 
     Returns
     -------
@@ -159,14 +164,14 @@ def check_beginnings(tests: Sequence[Any], units: str) -> str:
     """
     said = []
     for i, test in enumerate(tests):
-        name = f"tests[{i}]"
+        name = name_of_test(test, i)
         begin = beginning_of(test, name)
         largest = float(np.abs(strain_and_stress(test, name)[:, 1]).max())
         if abs(begin.stress) >= _UNLOADED * largest:
             _check_loaded(begin, name, units)
         else:
             _check_offset(begin, name, units)
-            said.append(_said(begin, name, units))
+            said.append(_said(begin, name, units, effect))
     return ". ".join(filter(None, said))
 
 
@@ -227,31 +232,34 @@ def _check_offset(begin: Beginning, name: str, units: str) -> None:
     low, high = (f"{stress:.2g}" for stress in begin.elastic)
     if has_toe or (is_off and not is_along):
         minus = "-" if begin.sign < 0.0 else ""
+        way = instead(
+            "toe",
+            f"curvewise fit: --toe; Python: {minus}shift_to_origin({minus}test, elastic="
+            f"({float(low):g}, {float(high):g}), cut=True)",
+        )
         raise BeginningError(
             f"{name} begins with a toe: its first point is at a strain of {begin.strain:.4g} and a "
             f"stress of {begin.stress:.4g} {units}, and its straight part, extended, has no stress "
-            f"at a strain of {zero:.4g}; cut the toe (curvewise fit: --toe; Python: "
-            f"{minus}shift_to_origin({minus}test, elastic=({float(low):g}, {float(high):g}), "
-            "cut=True))"
+            f"at a strain of {zero:.4g}; cut the toe ({way})"
         )
     if is_off:
         raise BeginningError(
             f"{name} does not begin at zero: its first point is at a strain of {begin.strain:.4g} "
             f"and a stress of {begin.stress:.4g} {units}, a strain of {missed:.4g} beside the "
             "elastic line through zero. If strain or stress was not zeroed, or the test follows a "
-            "prestrain, make the first point the origin (curvewise fit: --zero; Python: "
-            "shift_to_origin(test)). If the test is part of a longer one, begin it with the first "
-            "loading"
+            f"prestrain, make the first point the origin ({_zero()}). If the test is part of a "
+            "longer one, begin it with the first loading"
         )
 
 
-def _said(begin: Beginning, name: str, units: str) -> str:
+def _said(begin: Beginning, name: str, units: str, effect: str) -> str:
     """Return a sentence about a small offset or toe, or ""."""
     late = begin.sign * (begin.zero - begin.missed)
     if begin.share(late) > _SEEN_TOE and late > _NOISE * begin.error:
         return (
             f"{name} may begin with a toe: its straight part, extended, has no stress at a strain "
-            f"of {begin.zero:.4g}. Compare the fit without it (curvewise fit: --toe)"
+            f"of {begin.zero:.4g}. Compare the fit without it "
+            f"({instead('toe', 'curvewise fit: --toe')})"
         )
     noise = _NOISE * max(begin.noise, begin.early_error)
     is_seen = begin.share(begin.early) > _SEEN and abs(begin.early) > noise
@@ -259,7 +267,11 @@ def _said(begin: Beginning, name: str, units: str) -> str:
         return ""
     return (
         f"The first points of {name} are beside the elastic line through zero, by a strain of "
-        f"{begin.early:.2g} or a stress of {-begin.early * begin.modulus:.2g} {units}: parameters "
-        "may be off by more than their intervals. If strain or stress was not zeroed, make the "
-        "first point the origin (curvewise fit: --zero; Python: shift_to_origin(test))"
+        f"{begin.early:.2g} or a stress of {-begin.early * begin.modulus:.2g} {units}{effect}. "
+        "If strain or stress was not zeroed, make the "
+        f"first point the origin ({_zero()})"
     )
+
+
+def _zero() -> str:
+    return instead("zero", "curvewise fit: --zero; Python: shift_to_origin(test)")

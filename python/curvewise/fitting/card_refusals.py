@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from .._option_names import instead
 from ..calibration import Uncertainty
 from ..calibration.problem.tables import digits
 
@@ -83,9 +84,11 @@ def check_refusals(doubts: Mapping[str, str], solvers: str) -> None:
     if not doubts:
         return
     reasons = "; ".join(doubts.values())
+    fix = f"--fix {next(iter(doubts))}=VALUE"
+    known = instead("fix", f"{fix}; fixed=", fix)
+    accept = instead("accept_undetermined", "--accept-undetermined; accept_undetermined=True", "{}")
     raise UndeterminedCardError(
         f"no card for {solvers}: the tests do not determine {' and '.join(doubts)} ({reasons}); "
-        f"give what is known (--fix {next(iter(doubts))}=VALUE; fixed=), add a test with unloading "
-        "and small cycles, fit fewer back stresses, or accept it (--accept-undetermined; "
-        "accept_undetermined=True)"
+        f"give what is known ({known}), add a test with unloading and small cycles, fit fewer back "
+        f"stresses, or accept it ({accept})"
     )

@@ -43,12 +43,13 @@ def doubts_of(
     modulus_read: float,
     cycles: Cycles,
     beyond: Beyond | None,
+    beginning: str = "",
 ) -> list[Doubt]:
-    """Return which parameters are not to be used, with a reason each.
+    """Return which parameters are not to be used, with a reason each, after doubts of the tests.
 
     Parameters
     ----------
-    tests, found, uncertainty, modulus_read, cycles, beyond
+    tests, found, uncertainty, modulus_read, cycles, beyond, beginning
         As those of a :class:`MaterialFit`.
     """
     open_names = []
@@ -65,7 +66,7 @@ def doubts_of(
         *_of_bounds(beyond),
     ]
     doubted: set[str] = set()
-    kept = []
+    kept = [Doubt((), f"{beginning}.")] if beginning else []
     for names, sentence in doubts:
         if own := tuple(name for name in names if name not in doubted):
             kept.append(Doubt(own, sentence))

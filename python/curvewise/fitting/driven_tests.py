@@ -14,6 +14,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 from ..calibration import Criterion, LeastSquares
 from ..calibration.methods.method import Method
 from ..curves.inputs import Array
+from ..curves.named_curve import name_of_test
 from ..materials import DrivenModel, Material
 from .recorded_cycles import driven_test
 
@@ -49,7 +50,9 @@ class DrivenTests(NamedTuple):
         """Return the tests, thinned to about `points` points; see `fit_material`."""
         if cycles not in CYCLES:
             raise ValueError(f"cycles is {cycles!r}; give {' or '.join(map(repr, CYCLES))}")
-        driven = [driven_test(test, f"tests[{i}]", cycles, points) for i, test in enumerate(tests)]
+        driven = [
+            driven_test(test, name_of_test(test, i), cycles, points) for i, test in enumerate(tests)
+        ]
         paths = tuple(one.path for one in driven)
         parts = [one.compared for one in driven]
         is_whole = all(isinstance(part, slice) and part == slice(None) for part in parts)

@@ -86,7 +86,7 @@ class MaterialFit(CardsOfFit):
 
     def __str__(self) -> str:
         verdict, *tables = self.found.parts()
-        notes = [self.beginning, *(f"{_title(one)}\n{one}" for one in self.prepared)]
+        notes = [f"{_title(one)}\n{one}" for one in self.prepared]
         intervals = [] if self.uncertainty is None else self.uncertainty.parts()
         after = ["" if self.beyond is None else str(self.beyond)]
         if failures := self.found.failures:
@@ -94,7 +94,7 @@ class MaterialFit(CardsOfFit):
                 f"{len(failures)} of {self.found.evaluations} runs failed, the first: "
                 f"{failures[0][1]}"
             )
-        return text_of([verdict, *filter(None, notes), *intervals, *tables, *filter(None, after)])
+        return text_of([verdict, *notes, *intervals, *tables, *filter(None, after)])
 
     @property
     def verdict(self) -> Verdict:
@@ -115,6 +115,7 @@ class MaterialFit(CardsOfFit):
             modulus_read=self.modulus_read,
             cycles=self.cycles,
             beyond=self.beyond,
+            beginning=self.beginning,
         )
 
     @property

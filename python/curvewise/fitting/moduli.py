@@ -9,7 +9,9 @@ import numpy as np
 
 from .._bounds import Below, Bounds, Log, Tied
 from .._names import did_you_mean
+from .._option_names import called, command_of
 from ..calibration.problem.tables import digits
+from ..curves.named_curve import name_of_test
 from ..files.column_units import STRESSES, in_mpa
 from ..materials.readings import reading_of
 
@@ -29,15 +31,21 @@ def checked_names(
 ) -> tuple[dict[str, float], dict[str, Any]]:
     """Return fixed and bounded parameters; raise ValueError for an unknown name."""
     known, own = dict(fixed or {}), dict(bounds or {})
-    for option, given in (("fixed", known), ("bounds", own)):
+    for option, given in ((_fixed(), known), (called("bounds"), own)):
         if unknown := [name for name in given if name not in names]:
             raise ValueError(
                 f"{option} has no parameter of the material: {unknown[0]!r}"
                 f"{did_you_mean(unknown, names)} ({', '.join(names)})"
             )
     if twice := [name for name in own if name in known]:
-        raise ValueError(f"{twice[0]!r} is in fixed and in bounds; give one of them")
+        raise ValueError(
+            f"{twice[0]!r} is in {_fixed()} and in {called('bounds')}; give one of them"
+        )
     return known, own
+
+
+def _fixed() -> str:
+    return command_of("fix") or "fixed"
 
 
 def check_units(bounds: Bounds, tests: Sequence[Any], units: str) -> None:
@@ -73,7 +81,7 @@ def check_units(bounds: Bounds, tests: Sequence[Any], units: str) -> None:
             f"factor of {factor:.4g}; give it in the unit of their stresses "
             f"({f'{other} for {units}' if other else 'other units'}?)"
         )
-    largest = max(reading_of(test, f"tests[{i}]").stress for i, test in enumerate(tests))
+    largest = max(reading_of(test, name_of_test(test, i)).stress for i, test in enumerate(tests))
     for name in ("yield", "Y"):
         low, high = _ends(bounds.get(name))
         if low > _MOST_YIELD * largest or 0.0 < high < largest / _LEAST_YIELD:
@@ -107,6 +115,6 @@ def _unit_that_explains(low: float, high: float, read: float, units: str) -> str
 
 def modulus_of(tests: Sequence[Any]) -> float:
     """Return the slope with which tests unload, or that of first loading: the middle one."""
-    moduli = [reading_of(test, f"tests[{i}]").moduli for i, test in enumerate(tests)]
+    moduli = [reading_of(test, name_of_test(test, i)).moduli for i, test in enumerate(tests)]
     unloading = [slope for one in moduli for slope in one[1:]]
     return float(np.median(unloading or [one[0] for one in moduli]))

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from .._option_names import called
 from .._options import real_number
 from ..curves.inputs import Array, CurveLike
 from ..curves.named_curve import Labels, NamedCurve, known_file, known_names
@@ -219,21 +220,21 @@ def _of_force(name: str, area: float, units: str) -> tuple[float, str]:
         )
     if unit not in FORCES:
         raise ValueError(
-            f"area is {area:g}, and column {name!r} is not a force; leave area out, or choose the "
-            "column of the force"
+            f"{called('area')} is {area:g}, and column {name!r} is not a force; leave "
+            f"{called('area')} out, or choose the column of the force"
         )
     if (target := in_mpa(units)) is None:
         raise ValueError(
-            f"area is {area:g}, and forces cannot be converted to {units!r}; give units such as "
-            "'MPa' or 'ksi'"
+            f"{called('area')} is {area:g}, and forces cannot be converted to {units!r}; give "
+            f"{called('units')} such as 'MPa' or 'ksi'"
         )
     return FORCES[unit] / area / target, f"stress = {name} / area of {area:g} mm², in {units}"
 
 
 def _check_positive(option: str, value: float, what: str) -> None:
     advice = f"give {what}, a number above 0"
-    if not 0.0 < real_number(option, value, 0.0, advice) < np.inf:
-        raise ValueError(f"{option} is {value!r}; {advice}")
+    if not 0.0 < real_number(called(option), value, 0.0, advice) < np.inf:
+        raise ValueError(f"{called(option)} is {value!r}; {advice}")
 
 
 def _of_extension(name: str, gauge_length: float) -> tuple[float, str]:
@@ -247,8 +248,8 @@ def _of_extension(name: str, gauge_length: float) -> tuple[float, str]:
         )
     if unit not in LENGTHS:
         raise ValueError(
-            f"gauge_length is {gauge_length:g}, and column {name!r} is not a length; leave "
-            "gauge_length out, or choose the column of the extension"
+            f"{called('gauge_length')} is {gauge_length:g}, and column {name!r} is not a length; "
+            f"leave {called('gauge_length')} out, or choose the column of the extension"
         )
     return LENGTHS[unit] / gauge_length, f"strain = {name} / gauge length of {gauge_length:g} mm"
 
@@ -257,7 +258,9 @@ def _without_toe(points: Array, toe: bool | Sequence[float], units: str) -> tupl
     """Return a test without its toe, and a sentence about this step."""
     limits = () if isinstance(toe, bool) else tuple(map(float, toe))
     if len(limits) not in (0, 2):
-        raise ValueError(f"toe has {len(limits)} stresses; give two, low and high, or none")
+        raise ValueError(
+            f"{called('toe')} has {len(limits)} stresses; give two, low and high, or none"
+        )
     begin = beginning_of(points, "test")
     low, high = limits or begin.elastic
     cut = cut_toe(points, (low, high))

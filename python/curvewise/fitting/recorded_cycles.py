@@ -15,6 +15,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from .._option_names import called, command_of
 from ..curves.inputs import Array
 from ..curves.turns import last_cycle, turning_points
 from ..materials.readings import strain_and_stress, thinned, thinned_cycle
@@ -64,23 +65,27 @@ def checked_numbers(numbers: Any, count: int) -> Numbers | None:
         return None
     given = np.asarray(numbers, dtype=np.float64)
     if given.shape != (count,):
-        raise ValueError(f"cycle_numbers has shape {given.shape}; the test has {count} points")
+        raise ValueError(f"{_named()} has shape {given.shape}; the test has {count} points")
     if not np.isfinite(given).all() or given[0] < 0.0 or abs(given).max() > 2.0**53:
-        raise ValueError("cycle_numbers has a number that is negative or not finite")
+        raise ValueError(f"{_named()} has a number that is negative or not finite")
     whole: Numbers = np.floor(given + _HARDLY).astype(np.int64)
     falls = np.flatnonzero(np.diff(whole) < 0)
     if falls.size:
         i = int(falls[0])
         raise ValueError(
-            f"cycle_numbers falls from {whole[i]} to {whole[i + 1]} at point {i + 1}; give the "
+            f"{_named()} falls from {whole[i]} to {whole[i + 1]} at point {i + 1}; give the "
             "column that counts cycles from the first to the last"
         )
     if (missing := int(_left_out(whole).sum())) > _MOST:
         raise ValueError(
             f"the record leaves out {missing:,} cycles, and at most {_MOST:,} are run through; "
-            "leave out the last recorded cycles (until)"
+            f"leave out the last recorded cycles ({called('until')})"
         )
     return whole
+
+
+def _named() -> str:
+    return command_of("cycle_column") or "cycle_numbers"
 
 
 def said_of_cycles(numbers: Numbers) -> str:

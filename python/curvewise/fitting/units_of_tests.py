@@ -11,9 +11,10 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
+from .._option_names import called
 from ..curves.column_roles import is_time
 from ..curves.foreign_curves import warn
-from ..curves.named_curve import known_names
+from ..curves.named_curve import known_names, name_of_test
 from ..files.column_units import (
     FORCES,
     LENGTHS,
@@ -47,9 +48,9 @@ _STRESS_UNITS = {
 
 # The options that resolve each doubt, on the command line, in a study and in Python.
 _OPTIONS = {
-    "factors": "give --factors {}{}",
-    "gauge_length": "give --gauge-length, in mm",
-    "area": "give --area, in mm²",
+    "factors": "give {flag} {}{}",
+    "gauge_length": "give {flag}, in mm",
+    "area": "give {flag}, in mm²",
 }
 _KEYS = {
     "factors": "give factors = [{}]{}",
@@ -100,8 +101,9 @@ class Doubt(NamedTuple):
         """
         right = "they are strain and stress" if self.is_other else "its units are right"
         if by == "command":
-            way = "name others: --columns STRAIN STRESS" if self.is_other else self._way(_OPTIONS)
-            return f"{self.found}; {way}, or --factors 1 1 if {right}"
+            other = f"name others: {called('columns')} STRAIN STRESS"
+            way = other if self.is_other else self._way(_OPTIONS)
+            return f"{self.found}; {way}, or {called('factors')} 1 1 if {right}"
         if by == "study":
             other = 'name others: columns = ["STRAIN", "STRESS"]'
             way = other if self.is_other else self._way(_KEYS)
@@ -115,8 +117,8 @@ class Doubt(NamedTuple):
         ways = []
         if set(self.factors) != {"1"}:
             listed = (" " if words is _OPTIONS else ", ").join(self.factors)
-            ways.append(words["factors"].format(listed, self.where))
-        ways += [words[size] for size in self.sizes]
+            ways.append(words["factors"].format(listed, self.where, flag=called("factors")))
+        ways += [words[size].format(flag=called(size)) for size in self.sizes]
         return " and ".join(ways)
 
 
@@ -139,8 +141,8 @@ def warn_of_units(tests: Sequence[Any], units: str) -> None:
     """Warn of each test whose units are doubtful."""
     for i, test in enumerate(tests):
         if doubt := doubt_of(test, units):
-            said = f"tests[{i}]: {doubt.asked('python')}; if not, ignore this UnitsWarning"
-            warn(UnitsWarning(said))
+            said = f"{name_of_test(test, i)}: {doubt.asked('python')}"
+            warn(UnitsWarning(f"{said}; if not, ignore this UnitsWarning"))
 
 
 def _by_names(names: Sequence[str], units: str) -> Doubt | None:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .._option_names import instead
 from ..curves.averaging import averaged
 from ..curves.checks import Turns, branch_slices
 from ..curves.inputs import Array
@@ -111,8 +112,9 @@ def reading_of(experiment: object, name: str) -> Reading:
     largest = float(np.abs(points[:, 0]).max())
     if largest > _MOST_STRAIN:
         raise ValueError(
-            f"{name} has strains of up to {largest:.4g}, which is {100 * largest:.4g} %; divide "
-            "them by 100 if they are in per cent (where they are true, the bounds must be given)"
+            f"{name} has strains of up to {largest:.4g}, which is {100 * largest:.4g} %; "
+            f"{instead('factors', 'divide them by 100', 'give {} 0.01 1')} if they are in per cent "
+            f"(where they are true, {instead('bounds', 'the bounds')} must be given)"
         )
     branches = [points[part] for part in branch_slices(turning_points(points), len(points))]
     moduli = _moduli([_first_loading(branches[0]), *map(_unloading, branches[1:])])

@@ -130,7 +130,7 @@ def test_factors_change_the_units_of_each_file(run, output, compared, files):
     assert loaded["values"]["dtw"] == curvewise.dtw(scaled, Q * [1.0, -1.0])
     assert_failed(
         run("compare", *files, "--factors-b", "2"),
-        "factors has shape (1,); B.csv gives 2 columns, and each needs one",
+        "--factors-b has shape (1,); B.csv gives 2 columns, and each needs one",
     )
     assert run("compare", *files, "--factors-a", "1", "stone")[0] == USAGE
 
@@ -158,7 +158,7 @@ def test_time_is_not_compared_with_strain_without_a_word(run, output, files):
     assert_failed(
         run("compare", *files),
         "the first two of the 4 columns of A.csv are Time [s] and strain [%]; name those wanted: "
-        "--columns 'strain [%]' stress\n",
+        "--columns-a 'strain [%]' stress\n",
     )
     columns = ("--columns", "strain [%]", "stress", "--columns-b", "1", "2")
     assert "columns strain [%], stress\n" in output("compare", *files, *columns)

@@ -124,6 +124,21 @@ def test_the_fit_warns_or_reports() -> None:
     assert "first points of tests[0] are beside the elastic line" in str(fit)
 
 
+def test_an_offset_is_a_doubt_of_the_verdict_and_the_report(tmp_path: Path) -> None:
+    test = moved(TEST, 0.0, -20.0)
+    fit = fit_material(test, MATERIAL, fixed=KNOWN, max_runs=5, progress=False)
+    assert fit.doubts[0].names == ()
+    check, use = fit.verdict.lines[1:3]
+    assert check.startswith("Check first: The first points of tests[0]")
+    assert "--zero" in check
+    assert use.startswith("Use, once this is settled: ")
+    assert str(fit).count("beside the elastic line") == 1
+    _, report, _ = fit.write(tmp_path)
+    assert "Check first" in report.read_text(encoding="utf-8")
+    right = fit_material(TEST, MATERIAL, fixed=KNOWN, max_runs=5, progress=False)
+    assert not any(line.startswith("Check first") for line in right.verdict.lines)
+
+
 @pytest.mark.nightly("flags0|flags1")
 @pytest.mark.parametrize(
     ("test", "flags"),

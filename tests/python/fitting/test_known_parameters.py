@@ -82,10 +82,10 @@ def test_what_is_written_otherwise_is_refused(command, capsys, given, message) -
             ["--bounds", "q=0:200"],
             "bounds has no parameter of the material: 'q'; did you mean 'Q'?",
         ),
-        (["--fix", "e=1"], "fixed has no parameter of the material: 'e'; did you mean 'E'?"),
+        (["--fix", "e=1"], "--fix has no parameter of the material: 'e'; did you mean 'E'?"),
         (
             ["--fix", "Q=1", "--bounds", "Q=0:200"],
-            "'Q' is in fixed and in bounds; give one of them",
+            "'Q' is in --fix and in --bounds; give one of them",
         ),
         (["--fix", "E=206"], "E is 206 MPa, and the tests show .* (GPa for MPa?)"),
         (["--fix", "E=29878"], "a factor of 6.8"),

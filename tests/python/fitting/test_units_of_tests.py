@@ -148,7 +148,7 @@ def test_a_soft_material_is_fitted_if_its_units_are_said_to_be_right(
 def test_python_is_warned(tmp_path: Path) -> None:
     test = read_curve(written(tmp_path / "loop.csv", HEADERS[2], "mm/m", "MPa"))
     with (
-        pytest.warns(UnitsWarning, match=r"tests\[1\]: the strain is in column 'strain \[mm/m\]'"),
+        pytest.warns(UnitsWarning, match=r"loop.csv: the strain is in column 'strain \[mm/m\]'"),
         pytest.raises(ValueError, match="strains of up to 20"),
     ):
         fit_material([LOOP, test], MATERIAL, progress=False)

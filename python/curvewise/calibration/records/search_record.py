@@ -48,6 +48,7 @@ class Doubt(NamedTuple):
     Attributes
     ----------
     names : tuple of str
+        Empty if a test itself is doubtful, and with it all parameters.
     sentence : str
         Why, and what would determine them.
     """

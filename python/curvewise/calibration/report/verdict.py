@@ -13,7 +13,7 @@ from typing import Any
 
 from ...showing.result import paragraph
 from ..problem.tables import digits, per_cent
-from ..records.search_record import Agreement
+from ..records.search_record import Agreement, Doubt
 from .misfit import SCATTERED, SYSTEMATIC, misfit_of
 from .shown_search import Loop, ShownSearch
 
@@ -137,23 +137,33 @@ def _parameters(search: ShownSearch, usable: Mapping[str, bool]) -> list[str]:
     if summary is None:
         return [
             f"Parameters: it is not known which of them the tests determine. {search.reason}",
-            *(f"Do not use {_listed(doubt.names)}: {doubt.sentence}" for doubt in ending.doubts),
+            *map(_doubt, ending.doubts),
         ]
     values = search.parameters
     good = [name for name, is_good in usable.items() if is_good]
-    lines = []
+    lines = [_doubt(doubt) for doubt in ending.doubts if not doubt.names]
+    use = "Use, once this is settled" if lines else "Use"
     if good:
         said = [f"{name} = {digits(values[name], 4)}{_half(summary, name)}" for name in good]
-        lines.append(f"Use: {', '.join(said)} ({100 * summary['level']:g} % intervals).")
+        lines.append(f"{use}: {', '.join(said)} ({100 * summary['level']:g} % intervals).")
     else:
         lines.append("Use: no single parameter.")
     doubted: set[str] = set()
     for doubt in ending.doubts:
+        if not doubt.names:
+            continue
         said = [f"{name}{_range(summary, name)}" for name in doubt.names]
         lines.append(f"Do not use {_listed(said)}: {doubt.sentence}")
         doubted |= set(doubt.names)
     left = [name for name, is_good in usable.items() if not is_good and name not in doubted]
     return [*lines, *_undetermined(search, summary, left)]
+
+
+def _doubt(doubt: Doubt) -> str:
+    """Return the line of a doubt, about a test or about parameters."""
+    if not doubt.names:
+        return f"Check first: {doubt.sentence}"
+    return f"Do not use {_listed(doubt.names)}: {doubt.sentence}"
 
 
 def _half(summary: Mapping[str, Any], name: str) -> str:
