@@ -117,10 +117,10 @@ def draw(kinds: Array, live: Array, coupling: Any, warping: Any) -> None:
     left, right = figure.subplots(1, 2, sharey=True)
     left.imshow(kinds, cmap=ListedColormap(COLOURS), vmin=0, vmax=2, interpolation="nearest")
     right.imshow(live, cmap=ListedColormap((COLOURS[BLOCKED], LIVE)), interpolation="nearest")
-    names = ("blocked", "free: passed through", "swept")
+    names = ("blocked", "free", "filled")
     patches = [Patch(color=c, label=name) for c, name in zip(COLOURS, names, strict=True)]
-    lives = [Patch(color=COLOURS[BLOCKED], label="dead"), Patch(color=LIVE, label="live: swept")]
-    titles = ("Discrete Fréchet: blocks", "DTW: live cells")
+    lives = [Patch(color=COLOURS[BLOCKED], label="pruned"), Patch(color=LIVE, label="active")]
+    titles = ("Discrete Fréchet: blocks", "DTW: active cells")
     for panel, path, title, handles in zip(
         (left, right), (coupling, warping), titles, (patches, lives), strict=True
     ):
