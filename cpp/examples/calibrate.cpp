@@ -148,7 +148,8 @@ int main(int count, char** arguments) try {
     int evaluations = 0;
     const auto objective = [&](const Constants& logarithms) {
         ++evaluations;
-        return curvewise::area(experiment, response(experiment, exponential(logarithms)), options);
+        const Points computed = response(experiment, exponential(logarithms));
+        return curvewise::area(experiment, computed, options);
     };
     Constants x{std::log(150e3), std::log(200.0), std::log(30e3), std::log(100.0)};
     double value = objective(x);

@@ -7,12 +7,17 @@
 ///     CurveView(xy, 240, 2, 1, 240)       column-major: all x, then all y
 ///     CurveView(&rows[0].strain, n, 2, sizeof(Row) / sizeof(double), 1)
 ///                                         two neighbouring members of a struct of doubles
-///     CurveView(points)                   a std::vector<std::array<double, 2>>
+///     CurveView(points)                   a std::vector<std::array<double, 2>>, or of a struct of
+///                                         two or three doubles; double points[240][2]
+///     CurveView(values)                   a std::vector<double>, or double values[240], in one
+///                                         dimension; in C++20 a std::span of all of these
 ///     curve_view(matrix)                  an Eigen matrix, map, block: curvewise/eigen.hpp
 ///     CurveView(floats, 240, 2, 2, 1)     of floats, for lists: cdist, pdist, Prepared, Index
 ///
 /// A list of floats is never copied as a whole. Its curves are converted to doubles, exactly, for
 /// each computation, some at a time. Functions of single pairs reject floats.
+///
+/// The compiler refuses a temporary vector or array, whose points would not outlive the call.
 ///
 /// A view does not check anything. The function that receives it does, and throws
 /// std::invalid_argument with the argument and the place: "Q[17, 1] is nan; curves must be finite".
@@ -22,11 +27,52 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 #include <vector>
+
+#if __has_include(<version>)
+#include <version>
+#endif
+#ifdef __cpp_lib_span
+#include <span>
+#endif
 
 #include "curvewise/export.h"
 
 namespace curvewise {
+
+namespace points {  // what CurveView takes for the points of a list
+
+// Whether T{double, ...} of `count` doubles is one, without narrowing: a member of another type
+// of the same size is none.
+template <class T, class Numbers, class = void>
+inline constexpr bool is_made_of = false;
+template <class T, class... Number>
+inline constexpr bool
+    is_made_of<T, std::tuple<Number...>, std::void_t<decltype(T{std::declval<Number>()...})>> =
+        sizeof(T) == sizeof...(Number) * sizeof(double) &&
+        std::is_standard_layout<T>::value&& std::is_trivially_copyable<T>::value;
+
+// The coordinates of a point of this type, or 0 if it is none.
+template <class T>
+inline constexpr std::ptrdiff_t dim_of = is_made_of<T, std::tuple<double, double>>           ? 2
+                                         : is_made_of<T, std::tuple<double, double, double>> ? 3
+                                                                                             : 0;
+template <>
+inline constexpr std::ptrdiff_t dim_of<double> = 1;
+template <std::size_t D>
+inline constexpr std::ptrdiff_t dim_of<std::array<double, D>> =
+    D > 0 && sizeof(std::array<double, D>) == D * sizeof(double) ? static_cast<std::ptrdiff_t>(D)
+                                                                 : 0;
+template <std::size_t D>
+inline constexpr std::ptrdiff_t dim_of<double[D]> = static_cast<std::ptrdiff_t>(D);
+
+template <class T>
+inline constexpr bool is_point = dim_of<std::remove_cv_t<T>> > 0;
+
+}  // namespace points
 
 /// A view of n points with dim coordinates.
 class CurveView {
@@ -51,14 +97,27 @@ class CurveView {
               std::ptrdiff_t col_stride) noexcept
         : CurveView(static_cast<const double*>(nullptr), n, dim, row_stride, col_stride) {}
 
-    /// Not explicit, so that every function takes the vector itself.
-    template <std::size_t D, class Allocator>
-    CurveView(const std::vector<std::array<double, D>, Allocator>& points) noexcept
-        : CurveView(points.empty() ? nullptr : points.front().data(),
-                    static_cast<std::ptrdiff_t>(points.size()), static_cast<std::ptrdiff_t>(D)) {
-        static_assert(D > 0 && sizeof(std::array<double, D>) == D * sizeof(double),
-                      "the points of the vector must lie side by side");
-    }
+    /// Not explicit, so that every function takes the vector itself. A point is a double, a
+    /// std::array of doubles, or a trivially copyable type that is made of two or three doubles
+    /// alone.
+    template <class Point, class Allocator, std::enable_if_t<points::is_point<Point>, int> = 0>
+    CurveView(const std::vector<Point, Allocator>& points) noexcept
+        : CurveView(Sequence(), points.data(), points.size()) {}
+    /// Not of a temporary, which would end before the view.
+    template <class Point, class Allocator, std::enable_if_t<points::is_point<Point>, int> = 0>
+    CurveView(const std::vector<Point, Allocator>&& points) = delete;
+
+    /// Of an array, whose length is its number of points.
+    template <class Point, std::size_t N, std::enable_if_t<points::is_point<Point>, int> = 0>
+    CurveView(const Point (&points)[N]) noexcept : CurveView(Sequence(), points, N) {}
+    template <class Point, std::size_t N, std::enable_if_t<points::is_point<Point>, int> = 0>
+    CurveView(const Point (&&points)[N]) = delete;
+
+#ifdef __cpp_lib_span
+    template <class Point, std::size_t N, std::enable_if_t<points::is_point<Point>, int> = 0>
+    CurveView(std::span<Point, N> points) noexcept
+        : CurveView(Sequence(), points.data(), points.size()) {}
+#endif
 
     /// Of doubles.
     double operator()(std::ptrdiff_t i, std::ptrdiff_t c) const noexcept {
@@ -83,6 +142,13 @@ class CurveView {
     CURVEWISE_EXPORT std::string shape() const;
 
    private:
+    struct Sequence {};
+    template <class Point>
+    CurveView(Sequence /*tag*/, const Point* points, std::size_t size) noexcept
+        : CurveView(reinterpret_cast<const double*>(points), static_cast<std::ptrdiff_t>(size),
+                    points::dim_of<Point>, points::dim_of<Point>,
+                    std::is_same_v<Point, double> ? 0 : 1) {}
+
     const double* data_ = nullptr;
     const float* floats_ = nullptr;
     std::ptrdiff_t n_;

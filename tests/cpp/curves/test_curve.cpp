@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -192,10 +195,80 @@ void order_of_checks() {
                  "P[0, 0] is nan; curves must be finite");
 }
 
+struct Plane {
+    double x = 0.0, y = 0.0;
+};
+struct Space {
+    double x, y, z;
+};
+class Private {
+   public:
+    Private(double x, double y) : xy_{x, y} {}
+    double x() const { return xy_[0]; }
+
+   private:
+    double xy_[2];
+};
+struct WithNumber {
+    double x;
+    std::int64_t number;
+};
+struct WithFloats {
+    double x;
+    float y, z;
+};
+
+template <class Point>
+constexpr bool is_viewed = std::is_convertible_v<const std::vector<Point>&, CurveView>;
+
+static_assert(is_viewed<double> && is_viewed<Plane> && is_viewed<Space> && is_viewed<Private>);
+static_assert(is_viewed<std::complex<double>> && is_viewed<std::array<double, 7>>);
+static_assert(!is_viewed<WithNumber> && !is_viewed<WithFloats> && !is_viewed<float>);
+static_assert(!is_viewed<int> && !is_viewed<std::array<float, 2>> && !is_viewed<std::string>);
+static_assert(!is_viewed<std::array<double, 0>> && !is_viewed<std::vector<double>>);
+// A temporary, whose view would outlive it.
+static_assert(!std::is_constructible_v<CurveView, std::vector<double>>);
+static_assert(!std::is_constructible_v<CurveView, std::vector<Plane>>);
+static_assert(!std::is_constructible_v<CurveView, const std::vector<std::array<double, 2>>>);
+static_assert(!std::is_constructible_v<CurveView, double (&&)[3]>);
+#ifdef __cpp_lib_span
+static_assert(std::is_convertible_v<std::span<const double>, CurveView>);
+static_assert(std::is_convertible_v<std::span<Plane>, CurveView>);
+static_assert(std::is_convertible_v<std::span<const Space, 4>, CurveView>);
+#endif
+
+void types_at_hand() {
+    const std::vector<double> numbers{1, 2, 3};
+    const CurveView flat(numbers);
+    CHECK(flat.is_flat());
+    CHECK_EQUAL(flat.shape(), "(3,)");
+    CHECK_EQUAL(flat(2, 0), 3.0);
+    const std::vector<Plane> plane{{1, 2}, {3, 4}, {5, 6}};
+    const std::vector<Space> space{{1, 2, 3}, {4, 5, 6}};
+    const double rows[2][3] = {{1, 2, 3}, {4, 5, 6}}, line[] = {1, 2, 3};
+    const Plane points[] = {{1, 2}, {3, 4}, {5, 6}};
+    CHECK_EQUAL(CurveView(plane).shape(), "(3, 2)");
+    CHECK_EQUAL(CurveView(space).shape(), "(2, 3)");
+    CHECK_EQUAL(CurveView(rows).shape(), "(2, 3)");
+    CHECK_EQUAL(CurveView(line).shape(), "(3,)");
+    CHECK_EQUAL(CurveView(points).shape(), "(3, 2)");
+    for (std::ptrdiff_t i = 0; i < 2; ++i) {
+        for (std::ptrdiff_t c = 0; c < 3; ++c) {
+            CHECK_EQUAL(CurveView(rows)(i, c), CurveView(space)(i, c));
+        }
+    }
+    CHECK_EQUAL(curvewise::dtw(plane, points), 0.0);
+    CHECK_EQUAL(curvewise::dtw(numbers, line), 0.0);
+    const std::vector<Plane> none;
+    CHECK_THROWS(curvewise::dtw(none, plane), std::invalid_argument,
+                 "P has shape (0, 2); dtw needs at least 1 point");
+}
+
 }  // namespace
 
 int main() {
     return check::run({{"reading", reading},
+                       {"types at hand", types_at_hand},
                        {"shapes", shapes},
                        {"same answers in every layout", same_answers_in_every_layout},
                        {"places of bad entries", places_of_bad_entries},
