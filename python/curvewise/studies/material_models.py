@@ -12,7 +12,7 @@ from typing import Any, TypeVar, get_args, get_type_hints
 
 from .._names import did_you_mean
 from ..calibration.problem.space import Space
-from ..curves.named_curve import NamedCurve
+from ..curves.named_curve import NamedCurve, name_of_test
 from ..fitting.beginnings import warn_of_beginnings
 from ..fitting.driven_tests import CYCLES, Cycles, DrivenTests
 from ..fitting.moduli import check_units, modulus_of
@@ -129,7 +129,8 @@ def drive(
             try:
                 what([test])
             except ValueError as error:
-                said = str(error).removeprefix("experiments[0] ").removeprefix("tests[0]: ")
+                named = f"{name_of_test(test, 0)}: "
+                said = str(error).removeprefix("experiments[0] ").removeprefix(named)
                 source.problem(("tests", i), f"cannot drive a material: {said}")
 
     each(lambda one: material.bounds_from(list(map(whole_record, one))))
