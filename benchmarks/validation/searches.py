@@ -208,7 +208,7 @@ def table(results: dict[str, dict[str, Any]]) -> str:
         by_case.setdefault((name, measure), {}).setdefault(label, []).append(result)
     lines = [
         "| test | measure | best value | method | within 1 % | median runs to it | runs | furthest "
-        "| said to converge further away | seconds beside the model |",
+        '| false "converged" | seconds beside the model |',
         "|---|---|---:|---|---:|---:|---:|---:|---:|---:|",
     ]
     for (name, measure), by_label in sorted(by_case.items()):
