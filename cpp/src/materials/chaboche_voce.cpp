@@ -7,40 +7,33 @@
 #include <vector>
 
 #include "curvewise/materials.hpp"
-#include "materials/control_by_stress.hpp"
 
 namespace curvewise {
+namespace materials {
 
-namespace {
-
-using materials::ChabocheVocePoint;
-using materials::Parameters;
-
-// Throws for parameters that make no sense.
 Parameters checked_parameters(const ChabocheVoce& material, const double* values) {
     const Parameters checked(material_parameters(material), values);
-    materials::check_modulus(checked, material.modulus);
-    const std::size_t yield = materials::place_of_yield(material.modulus);
+    check_modulus(checked, material.modulus);
+    const std::size_t yield = place_of_yield(material.modulus);
     checked.above_zero(yield);
     for (std::size_t i = yield + 2; i < checked.count(); ++i) checked.at_least_zero(i);
     if (checked[yield] + checked[yield + 1] <= 0.0) {
-        checked.refuse(yield + 1, "a yield stress of " + materials::text_of(checked[yield]) +
+        checked.refuse(yield + 1, "a yield stress of " + text_of(checked[yield]) +
                                       " would soften to nothing; give Q > -yield");
     }
     return checked;
 }
 
-// What hardening leads to at most.
 double largest_stress(const ChabocheVoce& material, const Parameters& checked) {
-    const std::size_t yield = materials::place_of_yield(material.modulus);
+    const std::size_t yield = place_of_yield(material.modulus);
     double most = checked[yield] + std::max(0.0, checked[yield + 1]);
     for (std::size_t i = yield + 3; i < checked.count(); i += 2) {
         if (checked[i] > 0.0) most += checked[i] / checked[i + 1];
     }
-    return materials::with_rounding(most, 1e-9);
+    return with_rounding(most, 1e-9);
 }
 
-}  // namespace
+}  // namespace materials
 
 std::vector<MaterialParameter> material_parameters(const ChabocheVoce& material) {
     if (material.backstresses < 0 || material.backstresses > 99) {
@@ -64,26 +57,12 @@ std::vector<MaterialParameter> material_parameters(const ChabocheVoce& material)
 
 void material_stress(const ChabocheVoce& material, const double* parameters, const double* strain,
                      std::ptrdiff_t n, double* stress, double* slopes, Control* control) {
-    const Parameters checked = checked_parameters(material, parameters);
+    const materials::Parameters checked = materials::checked_parameters(material, parameters);
     materials::check_strains(strain, n);
-    const double most = largest_stress(material, checked);
+    const double most = materials::largest_stress(material, checked);
     try {
-        materials::integrate<ChabocheVocePoint>(material, checked, most, strain, n, stress, slopes,
-                                                control);
-    } catch (const materials::NoStress& found) {
-        checked.refuse(found);
-    }
-}
-
-void material_response(const ChabocheVoce& material, const double* parameters, const double* given,
-                       const bool* by_stress, std::ptrdiff_t n, double* answer, double* slopes,
-                       Control* control) {
-    const Parameters checked = checked_parameters(material, parameters);
-    materials::check_given(given, by_stress, n);
-    const double most = largest_stress(material, checked);
-    try {
-        materials::respond<ChabocheVocePoint>(material, checked, most, given, by_stress, n, answer,
-                                              slopes, control);
+        materials::integrate<materials::ChabocheVocePoint>(material, checked, most, strain, n,
+                                                           stress, slopes, control);
     } catch (const materials::NoStress& found) {
         checked.refuse(found);
     }

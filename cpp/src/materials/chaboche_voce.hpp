@@ -24,6 +24,11 @@ namespace curvewise::materials {
 // The place of the yield stress among the parameters; Q, b, C1, gamma1, C2, ... follow it.
 inline std::size_t place_of_yield(Modulus modulus) { return modulus == Modulus::constant ? 1 : 3; }
 
+// Throws for parameters that make no sense.
+Parameters checked_parameters(const ChabocheVoce& material, const double* values);
+// What hardening leads to at most.
+double largest_stress(const ChabocheVoce& material, const Parameters& checked);
+
 // R, or n X of a back stress, while flow keeps its direction.
 template <class Number>
 struct Term {

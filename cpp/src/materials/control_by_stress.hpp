@@ -19,9 +19,6 @@
 
 namespace curvewise::materials {
 
-// Throws: hardening ends before the stress that is given.
-[[noreturn]] void refuse_target(std::ptrdiff_t i, double target, double reached);
-
 // The increment of strain with which a copy of the point reaches a stress.
 template <class Point>
 class StressSearch {

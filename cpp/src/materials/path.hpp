@@ -110,6 +110,9 @@ void check_given(const double* given, const bool* by_stress, std::ptrdiff_t n);
 // Throws NoStress: parameters beyond all metals, whose products overflow or lose all digits.
 [[noreturn]] void refuse_stress(std::ptrdiff_t i, double stress);
 
+// Throws: hardening ends before the stress that is given.
+[[noreturn]] void refuse_target(std::ptrdiff_t i, double target, double reached);
+
 // Throws NoStress where a slope of stress i is not finite: `slopes` by the parameters from `first`.
 void check_slopes(std::ptrdiff_t i, const double* slopes, std::size_t first, std::size_t width,
                   const Parameters& parameters);

@@ -7,23 +7,17 @@
 #include <vector>
 
 #include "curvewise/materials.hpp"
-#include "materials/control_by_stress.hpp"
 
 namespace curvewise {
-
-namespace {
-
-using materials::Parameters;
-using materials::YoshidaUemoriPoint;
+namespace materials {
 
 std::size_t place_of_bound(const YoshidaUemori& material) {
     return material.modulus == Modulus::constant ? 1 : 3;
 }
 
-// Throws for parameters that make no sense.
 Parameters checked_parameters(const YoshidaUemori& material, const double* values) {
     const Parameters checked(material_parameters(material), values);
-    materials::check_modulus(checked, material.modulus);
+    check_modulus(checked, material.modulus);
     const std::size_t CB = place_of_bound(material), Y = CB + 1, C = CB + 2, H = CB + 6;
     checked.above_zero(Y);
     checked.above_zero(C);
@@ -37,13 +31,12 @@ Parameters checked_parameters(const YoshidaUemori& material, const double* value
     constexpr double most_share = 1e6;  // beyond it rounding decides where growth stagnates
     if (checked[H] > most_share) checked.refuse(H, "it must be at most 1e6");
     if (!(material.rtol >= 1e-12 && material.rtol <= 1e-3)) {
-        throw std::invalid_argument("rtol is " + materials::text_of(material.rtol) +
+        throw std::invalid_argument("rtol is " + text_of(material.rtol) +
                                     "; give a number from 1e-12 to 1e-3");
     }
     return checked;
 }
 
-// What hardening leads to at most, along a path of strain of a length.
 double largest_stress(const YoshidaUemori& material, const Parameters& checked, double path) {
     const std::size_t CB = place_of_bound(material), RSAT = CB + 4, SB = CB + 5, H = CB + 6;
     double growth = checked[RSAT];
@@ -51,10 +44,10 @@ double largest_stress(const YoshidaUemori& material, const Parameters& checked, 
         const double C1 = checked[H + 1], C2 = checked[H + 2];
         growth *= std::pow(C1 + path, C2) - std::pow(C1, C2);
     }
-    return materials::with_rounding(checked[CB] + growth + checked[SB], 10.0 * material.rtol);
+    return with_rounding(checked[CB] + growth + checked[SB], 10.0 * material.rtol);
 }
 
-}  // namespace
+}  // namespace materials
 
 std::vector<MaterialParameter> material_parameters(const YoshidaUemori& material) {
     std::vector<MaterialParameter> parameters = materials::modulus_parameters(material.modulus);
@@ -75,31 +68,16 @@ std::vector<MaterialParameter> material_parameters(const YoshidaUemori& material
 
 void material_stress(const YoshidaUemori& material, const double* parameters, const double* strain,
                      std::ptrdiff_t n, double* stress, double* slopes, Control* control) {
-    const Parameters checked = checked_parameters(material, parameters);
+    const materials::Parameters checked = materials::checked_parameters(material, parameters);
     materials::check_strains(strain, n);
     double path = 0.0;
     for (std::ptrdiff_t i = 0; i < n; ++i) {
         path += std::abs(strain[i] - (i > 0 ? strain[i - 1] : 0.0));
     }
     try {
-        materials::integrate<YoshidaUemoriPoint>(material, checked,
-                                                 largest_stress(material, checked, path), strain, n,
-                                                 stress, slopes, control);
-    } catch (const materials::NoStress& found) {
-        checked.refuse(found);
-    }
-}
-
-void material_response(const YoshidaUemori& material, const double* parameters, const double* given,
-                       const bool* by_stress, std::ptrdiff_t n, double* answer, double* slopes,
-                       Control* control) {
-    const Parameters checked = checked_parameters(material, parameters);
-    materials::check_given(given, by_stress, n);
-    const double longest = 2.0 * materials::most_strain * static_cast<double>(n);
-    try {
-        materials::respond<YoshidaUemoriPoint>(material, checked,
-                                               largest_stress(material, checked, longest), given,
-                                               by_stress, n, answer, slopes, control);
+        materials::integrate<materials::YoshidaUemoriPoint>(
+            material, checked, materials::largest_stress(material, checked, path), strain, n,
+            stress, slopes, control);
     } catch (const materials::NoStress& found) {
         checked.refuse(found);
     }

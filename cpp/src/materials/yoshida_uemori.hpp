@@ -20,6 +20,11 @@ std::vector<double> values_of(const Number* numbers, std::size_t count) {
     return values;
 }
 
+// Throws for parameters that make no sense.
+Parameters checked_parameters(const YoshidaUemori& material, const double* values);
+// What hardening leads to at most, along a path of strain of a length.
+double largest_stress(const YoshidaUemori& material, const Parameters& checked, double path);
+
 template <class Number>
 class YoshidaUemoriPoint {
    public:
