@@ -107,7 +107,7 @@ def beginning_of(test: Any, name: str) -> Beginning:
     reading = reading_of(points, name)
     modulus = float(np.median(reading.moduli[1:] or reading.moduli))
     first = points[branch_slices(turning_points(points), len(points))[0]]
-    limit = offset_yield(first, modulus)
+    limit = offset_yield(first, modulus, name)
     sign = 1.0 if first[-1, 0] >= first[0, 0] else -1.0
     elastic = (_STRAIGHT[0] * limit, _STRAIGHT[1] * limit)
     stress = sign * first[:, 1]

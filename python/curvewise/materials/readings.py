@@ -128,7 +128,7 @@ def reading_of(experiment: object, name: str) -> Reading:
         raise ValueError(f"{name} is elastic: nothing of hardening can be read off it")
     return Reading(
         tuple(moduli),
-        offset_yield(branches[0], moduli[0]),
+        offset_yield(branches[0], moduli[0], name),
         float(np.abs(points[:, 1]).max()),
         max(plastic),
         sum(plastic),
@@ -227,9 +227,21 @@ def _moduli(parts: Sequence[Array]) -> list[float]:
     return found
 
 
-def offset_yield(first: Array, modulus: float) -> float:
-    """Return the stress at which the first loading has left its line by the offset."""
+def offset_yield(first: Array, modulus: float, name: str) -> float:
+    """Return the stress at which the first loading has left its line by the offset.
+
+    Raises
+    ------
+    ValueError
+        If there is no stress up to there.
+    """
     sign = 1.0 if first[-1, 0] >= first[0, 0] else -1.0
     plastic = np.maximum.accumulate(sign * _plastic(first, modulus))
     place = int(np.searchsorted(plastic, min(_OFFSET, 0.25 * plastic[-1])))
-    return float(np.abs(first[: place + 1, 1]).max())
+    found = float(np.abs(first[: place + 1, 1]).max())
+    if not found > 0.0:
+        raise ValueError(
+            f"{name} strains without stress where it is first loaded; the first column is to be "
+            "the strain, the second the stress"
+        )
+    return found

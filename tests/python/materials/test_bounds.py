@@ -16,7 +16,7 @@ from curvewise.calibration import Log
 from curvewise.calibration.problem.space import Space
 from curvewise.curves import turning_points
 from curvewise.materials import ChabocheVoce, YoshidaUemori
-from curvewise.materials.readings import reading_of, thinned, thinned_cycle
+from curvewise.materials.readings import offset_yield, reading_of, thinned, thinned_cycle
 
 CHABOCHE = ChabocheVoce()
 STEEL = dict(zip(CHABOCHE.names, (200e3, 300.0, -50.0, 8.0, 80e3, 400.0, 5e3, 20.0), strict=True))
@@ -182,3 +182,10 @@ def test_measured_loops_are_read_as_steel(name: str, data_dir: Path) -> None:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             Space(material.bounds_from(test)).warn_of_wide_bounds()  # there are no wide ones
+
+
+def test_a_first_loading_without_stress_is_refused():
+    """A damaged file had one: its yield stress of 0 divided, and ended the command."""
+    first = np.column_stack((np.linspace(0.0, 0.01, 20), np.zeros(20)))
+    with pytest.raises(ValueError, match="test strains without stress where it is first loaded"):
+        offset_yield(first, 200e3, "test")
