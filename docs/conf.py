@@ -80,7 +80,10 @@ templates_path = ["_templates"]
 nitpicky = True
 nitpick_ignore = [("c:identifier", "ptrdiff_t"), ("std:ref", "curvewise_8h")]
 nitpick_ignore_regex = [
-    ("cpp:identifier", r"curvewise|detail(::\w+)?|std|Eigen|Eigen::DenseBase<Derived>")
+    (
+        "cpp:identifier",
+        r"curvewise|detail(::\w+)?|points(::is_point<Point>)?|std|Eigen|Eigen::DenseBase<Derived>",
+    )
 ]
 
 # Markdown. Links to headings are those of GitHub.
