@@ -169,6 +169,20 @@ def test_other_curves_deviate_in_their_last_coordinate(case):
     assert (residuals == objective.experiments[0][:, -1] - points[:, -1]).all()
 
 
+def test_squares_are_compared_at_the_measured_x_next_to_other_measures_too():
+    x = np.linspace(0.0, 1.0, 23)
+    test = np.column_stack((x, np.sin(5.0 * x)))
+    finer = np.linspace(0.0, 1.0, 64)
+    simulation = np.column_stack((finer, np.cos(4.0 * finer)))
+    expected = np.interp(x, finer, simulation[:, 1])
+    squares, area = (Objective([test], measure) for measure in ("sum_of_squares", "area"))
+    mixed = squares.of_terms([*squares._terms, *area._terms], None)
+    for objective, count in ((squares, 1), (mixed, 2)):
+        points, _, residuals, _ = next(fitted_tests(objective, [simulation] * count))
+        assert points[:, 1] == pytest.approx(expected, abs=1e-12)
+        assert residuals == pytest.approx(test[:, 1] - expected, abs=1e-12)
+
+
 @pytest.mark.parametrize("answers", ["x", "nothing"])
 def test_noise_across_a_curve_that_the_model_moves_along(answers):
     """A straight simulation that no parameter moves out of its line: the test has noise still."""
