@@ -5,7 +5,7 @@ curves there, in the direction of the point's deviation (`directions`). The othe
 weight of the point. For a sum of squares this is the linear theory of least squares. A measure that
 adds up distances has the weights of its gradient and the covariance of medians. That is pi / 2 of
 the variance of white noise; for correlated noise it uses the arcsines of the autocorrelations. For
-white noise, the area over sections is a median of these (`area_pieces`). Cost: two evaluations of
+white noise, the area over sections is a median of these (`medians`). Cost: two evaluations of
 the residuals for each parameter, or one gradient; in addition the cost of `correlation_of`.
 
 P. J. Huber, "The behavior of maximum likelihood estimates under nonstandard conditions", Proc. 5th
@@ -22,11 +22,10 @@ import numpy as np
 
 from ..._extras import required
 from ...curves.inputs import Array
-from .area_pieces import NoisyCurve, area_scatter
 from .correlation import Correlation, correlation_of, given_noise
 from .directions import Directions, at_places, directions_along
+from .medians import NoisyCurve, area_scatter, paired_scatter
 from .noise import Noise
-from .paired import paired_scatter
 from .sensitivity import Optimum, moves_of
 
 __all__ = ["Estimate", "estimate_of"]

@@ -13,7 +13,6 @@ B. Efron, R. J. Tibshirani, "An introduction to the bootstrap", Chapman & Hall (
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +22,7 @@ from ..problem.space import Space
 from ..surfaces.quasi_newton import quasi_newton
 from .estimate import Estimate, estimate_of
 from .noise import Noise
-from .sensitivity import Optimum, sensitivity_of
+from .sensitivity import Optimum
 
 __all__ = ["ADDED_UP", "Spread", "bootstrapped_spread", "linear_spread", "rise_at", "spread_of"]
 
@@ -33,8 +32,7 @@ ADDED_UP = ("area", "dtw", "sum_of_squares")
 # Settings of a minimisation on the surfaces: finite differences, in standard errors, and the
 # negligible gain, as a fraction of the cost of a standard error.
 _DIFFERENCE, _ENOUGH = 0.05, 0.002
-# directions with less sensitivity than this, relative to the largest, are treated equally
-_FLATTEST = 1e-3
+_LONGEST = 0.25  # greatest standard error, as a fraction of the bounds' ranges
 
 
 class Spread(NamedTuple):
@@ -96,11 +94,12 @@ def bootstrapped_spread(
     """Return the spread of the parameters that other noise would have given."""
     random = np.random.default_rng(seed)
     space = optimum.problem.space
-    correlation = estimate_of(optimum, noise).correlation
-    moves, steps = noise.moves(noise.directions), _natural_steps(optimum, noise)
+    estimate, moves = estimate_of(optimum, noise), noise.moves(noise.directions)
+    _, sizes, directions = np.linalg.svd(estimate.moves, full_matrices=False)
+    steps = directions.T * np.minimum(sizes, _LONGEST)
     units = np.empty((samples, optimum.unit.size))
     for i in range(samples):
-        drawn = zip(noise.fitted, correlation.draw(random), moves, strict=True)
+        drawn = zip(noise.fitted, estimate.correlation.draw(random), moves, strict=True)
         tests = [fitted + part[:, np.newaxis] * move for fitted, part, move in drawn]
         units[i] = _reminimised(optimum, tests, steps)
     points = np.array([space.point(unit) for unit in units])
@@ -137,7 +136,7 @@ def _correlation(covariance: Array) -> Array:
 def _reminimised(optimum: Optimum, tests: list[Array], steps: Array) -> Array:
     """Return where on the surfaces the objective of other tests is lowest.
 
-    The search uses `steps` as coordinates, which give all directions the same weight.
+    The search uses `steps` as coordinates: one standard error each, for white noise.
     """
     objective = optimum.problem.objective.of_other_tests(tests)
 
@@ -157,13 +156,3 @@ def _reminimised(optimum: Optimum, tests: list[Array], steps: Array) -> Array:
         maxiter=10 + 5 * start.size,
     )
     return place(best)
-
-
-def _natural_steps(optimum: Optimum, noise: Noise) -> Array:
-    """Return steps (columns) of equal sensitivity: about one standard error each."""
-    values, directions = sensitivity_of(optimum)
-    count = sum(map(len, optimum.problem.objective.experiments))
-    error = max(float(np.mean(noise.sigma / noise.heights)), 1e-9) / math.sqrt(count)
-    sizes = error / np.maximum(values, _FLATTEST * values[0])
-    steps: Array = directions.T * np.minimum(sizes, 0.25)
-    return steps

@@ -1,4 +1,4 @@
-"""Effect of white noise on an estimate by the area: a median over sections.
+"""Effect of white noise on an estimate that is a median: by the area, or by dtw of pairs.
 
 The area with `spacing="matched"` cuts the curves into sections of a tenth of the bounding box and
 adds up the absolute areas. Noise of the points changes the area of a section by a sum along it,
@@ -6,8 +6,12 @@ which is normally distributed. The estimate is a median of these sums, in the di
 parameter. Each sum counts by its own deviation. Two sums with the correlation rho, such as
 neighbours that share a point, have signs with the correlation (2 / pi) arcsin(rho). The effective
 number of observations is therefore the number of sections, mostly 50 of a loop: noise is averaged
-only within a section. For sections of one point each, the variance is a median's pi / 2. Cost: O(n
-k) for n points and k parameters, and a decomposition of (sections, k).
+only within a section. For sections of one point each, the variance is a median's pi / 2.
+
+If steps along the curves are longer than the noise, `dtw` adds up the distances of fixed pairs. The
+estimate is then a spatial median: the score of a pair is the unit vector of its deviation, and its
+expected derivative is that of the distance. Both follow from the deviations in the coordinates.
+Cost: O(n k^2) for n points and k parameters, or O(n k) and a decomposition of (sections, k).
 
 P. J. Huber, "The behavior of maximum likelihood estimates under nonstandard conditions", Proc. 5th
 Berkeley Symp. Math. Stat. Prob. 1 (1967) 221-233.
@@ -27,10 +31,11 @@ from ...curves.inputs import Array
 from ...curves.travel import travel
 from .sensitivity import moves_of
 
-__all__ = ["NoisyCurve", "area_scatter", "sums_of_pieces"]
+__all__ = ["NoisyCurve", "area_scatter", "paired_scatter", "sums_of_pieces"]
 
 _PIECES_PER_SIDE = 10  # of the box that a curve travels, as `area` has them
 _LEAST = 1e-9  # of the largest deviation of a piece: one that is less encloses nothing
+_ANGLES = 400  # of a mean over all directions of a deviation
 
 
 class NoisyCurve(NamedTuple):
@@ -112,3 +117,33 @@ def sums_of_pieces(test: Array, fitted: Array, moves: Array) -> Any:
     entries = shares * (normals * moves[points]).sum(axis=1)
     places = np.tile(middle.astype(np.intp), 2), points
     return required("scipy.sparse").csr_array((entries, places), shape=(pieces, len(fitted)))
+
+
+def paired_scatter(tests: Iterable[tuple[Array, Array, float]]) -> Array:
+    """Return the covariance of an estimate.
+
+    Parameters
+    ----------
+    tests : iterable of (ndarray, ndarray, float)
+        For each test the derivatives of its points, shape (n, 2, k), the deviations of the noise in
+        both coordinates, and the factor of its distances in the objective.
+    """
+    rows, weights, variances = [], [], []
+    for slopes, deviations, factor in tests:
+        bends = factor * _bends(deviations)
+        scores = factor**2 * deviations / deviations.sum()
+        rows.append(slopes.reshape(-1, slopes.shape[2]))
+        weights.append(np.tile(np.sqrt(bends), len(slopes)))
+        variances.append(np.tile(scores / bends**2, len(slopes)))
+    moves, _ = moves_of(np.concatenate(weights), np.concatenate(rows))
+    covariance: Array = (moves.T * np.concatenate(variances)) @ moves
+    return covariance
+
+
+def _bends(deviations: Array) -> Array:
+    """Return the expected second derivatives of the length of normal deviations."""
+    angles = (np.arange(_ANGLES) + 0.5) * (2.0 * math.pi / _ANGLES)
+    squares = np.column_stack((np.cos(angles), np.sin(angles))) ** 2
+    density = np.sqrt(0.5 * math.pi / (squares @ deviations**-2.0)) / np.prod(deviations)
+    bends: Array = (density[:, np.newaxis] * squares[:, ::-1]).mean(axis=0)
+    return bends
