@@ -35,7 +35,17 @@ py::tuple counts_of(const SearchRecord& record) {
 class BoundIndex {
    public:
     BoundIndex(const py::list& curves, const py::object& name, const py::dict& options)
-        : measure_(read_measure(name, options)), index_(make(curves)) {}
+        : measure_(read_measure(name, options)),
+          index_(make(curves, [&](const auto& views, Control* control) {
+              return Index(views, measure_, control);
+          })) {}
+    // With the indices of the curves in another, and that of the next.
+    BoundIndex(const py::list& curves, const std::vector<std::int64_t>& indices,
+               std::int64_t next_index, const py::object& name, const py::dict& options)
+        : measure_(read_measure(name, options)),
+          index_(make(curves, [&](const auto& views, Control* control) {
+              return Index(views, indices, next_index, measure_, control);
+          })) {}
 
     void add(const py::list& curves) {
         const Curves added(curves);
@@ -43,7 +53,10 @@ class BoundIndex {
                       [&](Control* control) { index_.add(added.views, control); });
         note_longest(added);
     }
+    void remove(const std::vector<std::int64_t>& indices) { index_.remove(indices); }
     std::size_t size() const { return index_.size(); }
+    std::int64_t next_index() const { return index_.next_index(); }
+    Places indices() const { return as_array(index_.indices()); }
     py::list curves() const {
         py::list arrays;
         for (const CurveView& curve : index_.curves()) {
@@ -58,27 +71,23 @@ class BoundIndex {
         return arrays;
     }
 
-    // X is a list, or null for the curves of the index.
+    // X is a list, or None for the curves of the index, whose indices are then the fourth result.
     py::tuple kneighbors(const py::object& X, std::ptrdiff_t count, const py::object& workers,
                          const py::object& progress) const {
+        if (X.is_none()) return neighbors_of_own(count, workers, progress);
         SearchRecord record;
         const SearchOptions options = search_options(workers, true, true, record);
-        const std::optional<Curves> queries = read(X);
-        const auto rows = static_cast<py::ssize_t>(queries ? queries->views.size() : size());
+        const Curves queries(X.cast<py::list>());
+        const auto rows = static_cast<py::ssize_t>(queries.views.size());
         const auto columns = std::max<std::ptrdiff_t>(count, 0);
         Numbers distances({rows, columns});
         Places indices({rows, columns});
         double* const to_distances = distances.mutable_data();
         std::int64_t* const to_indices = indices.mutable_data();
-        interruptible(work(queries), progress, [&](Control* control) {
-            if (queries) {
-                index_.kneighbors(queries->views, count, to_distances, to_indices, options,
-                                  control);
-            } else {
-                index_.kneighbors(count, to_distances, to_indices, options, control);
-            }
+        interruptible(work(&queries), progress, [&](Control* control) {
+            index_.kneighbors(queries.views, count, to_distances, to_indices, options, control);
         });
-        return py::make_tuple(distances, indices, counts_of(record));
+        return py::make_tuple(distances, indices, counts_of(record), py::none());
     }
 
     // The neighbours of all queries, one query's behind the other's, and where each query's begin.
@@ -86,9 +95,13 @@ class BoundIndex {
                                bool with_distances, const py::object& workers,
                                const py::object& progress) const {
         SearchRecord record;
-        const SearchOptions options = search_options(workers, sort_results, with_distances, record);
-        const std::optional<Curves> queries = read(X);
-        const auto found = interruptible(work(queries), progress, [&](Control* control) {
+        std::vector<std::int64_t> rows;
+        SearchOptions options = search_options(workers, sort_results, with_distances, record);
+        options.rows = &rows;
+        std::optional<Curves> queries;
+        if (!X.is_none()) queries.emplace(X.cast<py::list>());
+        const Curves* const asked = queries ? &*queries : nullptr;
+        const auto found = interruptible(work(asked), progress, [&](Control* control) {
             return queries ? index_.radius_neighbors(queries->views, radius, options, control)
                            : index_.radius_neighbors(radius, options, control);
         });
@@ -102,16 +115,38 @@ class BoundIndex {
             begins.push_back(static_cast<std::int64_t>(indices.size()));
         }
         return py::make_tuple(as_array(distances), as_array(indices), as_array(begins),
-                              counts_of(record));
+                              counts_of(record), queries ? py::object(py::none()) : as_array(rows));
     }
 
    private:
-    Index make(const py::list& list) {
+    template <class Make>
+    Index make(const py::list& list, Make make) {
         const Curves curves(list);
         note_longest(curves);
-        return interruptible(reading(curves), py::none(), [&](Control* control) {
-            return Index(curves.views, measure_, control);
+        return interruptible(reading(curves), py::none(),
+                             [&](Control* control) { return make(curves.views, control); });
+    }
+
+    // Other threads may add curves, or remove some, before the search sees how many there are.
+    py::tuple neighbors_of_own(std::ptrdiff_t count, const py::object& workers,
+                               const py::object& progress) const {
+        SearchRecord record;
+        std::vector<std::int64_t> rows;
+        SearchOptions options = search_options(workers, true, true, record);
+        options.rows = &rows;
+        const auto found = interruptible(work(nullptr), progress, [&](Control* control) {
+            return index_.kneighbors(count, options, control);
         });
+        const auto size = static_cast<py::ssize_t>(rows.size());
+        Numbers distances({size, count});
+        Places indices({size, count});
+        double* to_distance = distances.mutable_data();
+        std::int64_t* to_index = indices.mutable_data();
+        for (const Neighbor& neighbor : found) {
+            *to_distance++ = neighbor.distance;
+            *to_index++ = neighbor.index;
+        }
+        return py::make_tuple(distances, indices, counts_of(record), as_array(rows));
     }
 
     // The elementary steps that copying and preparing curves takes, roughly.
@@ -124,11 +159,6 @@ class BoundIndex {
         dim_ = std::max(dim_.load(), curves.dim());
     }
 
-    static std::optional<Curves> read(const py::object& X) {
-        if (X.is_none()) return std::nullopt;
-        return Curves(X.cast<py::list>());
-    }
-
     static SearchOptions search_options(const py::object& workers, bool sort_results,
                                         bool with_distances, SearchRecord& record) {
         return {whole_number("workers", workers, workers_range), sort_results, with_distances,
@@ -136,7 +166,7 @@ class BoundIndex {
     }
 
     // An upper bound of the elementary steps ahead, and enough to be called without the lock.
-    double work(const std::optional<Curves>& queries) const {
+    double work(const Curves* queries) const {
         const auto count = static_cast<double>(size());
         const double rows = queries ? queries->size() : count;
         const double n = queries ? queries->longest() : longest_.load();
@@ -206,8 +236,13 @@ py::tuple found_mean(const py::list& list, const std::vector<double>& weights,
 void bind_nearest(py::module_& module) {
     py::class_<BoundIndex>(module, "Index")
         .def(py::init<const py::list&, const py::object&, const py::dict&>())
+        .def(py::init<const py::list&, const std::vector<std::int64_t>&, std::int64_t,
+                      const py::object&, const py::dict&>())
         .def("add", &BoundIndex::add)
+        .def("remove", &BoundIndex::remove)
         .def("size", &BoundIndex::size)
+        .def("next_index", &BoundIndex::next_index)
+        .def("indices", &BoundIndex::indices)
         .def("curves", &BoundIndex::curves)
         .def("kneighbors", &BoundIndex::kneighbors)
         .def("radius_neighbors", &BoundIndex::radius_neighbors);

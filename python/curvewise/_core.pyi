@@ -5,7 +5,7 @@ type `Any` are whatever a user gives; the others are what ``as_curves`` returns.
 """
 
 from collections.abc import Callable
-from typing import Any, Literal, SupportsIndex, TypeAlias, TypedDict
+from typing import Any, Literal, SupportsIndex, TypeAlias, TypedDict, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -115,9 +115,23 @@ class Prepared:
     def values(self, Qs: list[_Array], workers: SupportsIndex, /) -> _Array: ...
 
 class Index:
+    @overload
     def __init__(self, curves: list[_Array], measure: str, options: _Options, /) -> None: ...
+    @overload
+    def __init__(
+        self,
+        curves: list[_Array],
+        indices: _Path,
+        next_index: int,
+        measure: str,
+        options: _Options,
+        /,
+    ) -> None: ...
     def add(self, curves: list[_Array], /) -> None: ...
+    def remove(self, indices: list[int], /) -> None: ...
     def size(self) -> int: ...
+    def next_index(self) -> int: ...
+    def indices(self) -> _Path: ...
     def curves(self) -> list[_Array]: ...
     def kneighbors(
         self,
@@ -126,7 +140,7 @@ class Index:
         workers: SupportsIndex,
         progress: _Report | None,
         /,
-    ) -> tuple[_Array, _Path, tuple[int, int, int]]: ...
+    ) -> tuple[_Array, _Path, tuple[int, int, int], _Path | None]: ...
     def radius_neighbors(
         self,
         X: list[_Array] | None,
@@ -136,7 +150,7 @@ class Index:
         workers: SupportsIndex,
         progress: _Report | None,
         /,
-    ) -> tuple[_Array, _Path, _Path, tuple[int, int, int]]: ...
+    ) -> tuple[_Array, _Path, _Path, tuple[int, int, int], _Path | None]: ...
 
 def dtw_subsequences(P: _Array, Q: _Array, count: int, options: _Options, /) -> _Runs: ...
 def frechet_subsequences(P: _Array, Q: _Array, count: int, options: _Options, /) -> _Runs: ...

@@ -86,7 +86,8 @@ names: list[str] = curvewise.available_measures()
 
 index = curvewise.Index([P, Q], "dtw", window=3)
 index.add([P])
-places: npt.NDArray[np.int64]
+index.remove([2])
+places: npt.NDArray[np.int64] = index.indices
 distances, places = index.kneighbors([P], 2, workers=2, progress=print)
 places = index.kneighbors(n_neighbors=np.int64(1), return_distance=False)
 near, far = index.radius_neighbors([P], 1.0, sort_results=False)

@@ -18,9 +18,9 @@
 /// Time: for N curves of n points, N cheap bounds a query, and O(n^2) for each remaining distance.
 /// Memory, relative to that of the points: at most 1.5 times from 128 numbers a curve on, and
 /// little more than once from 1,000 on. It is about twice for frechet_continuous, and three times
-/// for dtw and frechet on the sphere. Any number of threads may call all functions. No call waits
-/// for another: add() works while searches run, and a search sees the curves that were there when
-/// it began.
+/// for dtw and frechet on the sphere. A removed curve keeps its memory. Any number of threads may
+/// call all functions. No search waits for another call: add() and remove() work while searches
+/// run, and a search sees the curves that were there when it began.
 #pragma once
 
 #include <cstddef>
@@ -59,16 +59,24 @@ struct SearchOptions {
     /// not order the result, a distance is nan if the measure has a faster decision.
     bool with_distances = true;
     SearchRecord* record = nullptr;
+    /// Receives the index of the curve of each row, if curves of the index are searched for.
+    std::vector<std::int64_t>* rows = nullptr;
 };
 
-/// Curves to search for the nearest of other curves.
+/// Curves to search for the nearest of other curves. Curves are numbered in the order in which they
+/// are added. This number, their index, never changes, and is not used again after remove().
 class Index {
    public:
     /// Owns a copy of the curves. Throws as cdist does, naming the curve (curves[3]).
     CURVEWISE_EXPORT Index(const std::vector<CurveView>& curves, const Measure& measure,
                            Control* control = nullptr);
-    /// The other one is then empty; of its functions all but size(), curves() and assignment throw
-    /// std::logic_error.
+    /// With the indices of another index, ascending, and its next_index(): a copy of that without
+    /// the memory of removed curves.
+    CURVEWISE_EXPORT Index(const std::vector<CurveView>& curves, std::vector<std::int64_t> indices,
+                           std::int64_t next_index, const Measure& measure,
+                           Control* control = nullptr);
+    /// The other one is then empty; of its functions all but size(), curves(), indices(),
+    /// next_index() and assignment throw std::logic_error.
     CURVEWISE_EXPORT Index(Index&&) noexcept;
     CURVEWISE_EXPORT Index& operator=(Index&&) noexcept;
     Index(const Index&) = delete;
@@ -78,9 +86,18 @@ class Index {
     /// Adds all of the curves, or none if it throws. Throws std::logic_error if a Report of a call
     /// of this index calls it, since that call does not see the curves.
     CURVEWISE_EXPORT void add(const std::vector<CurveView>& curves, Control* control = nullptr);
+    /// Removes the curves of these indices, or none if it throws: std::invalid_argument for an
+    /// index of no curve, of one that was removed, or given twice, and std::logic_error as add().
+    /// Later calls do not see the curves. The curves keep their memory.
+    CURVEWISE_EXPORT void remove(const std::vector<std::int64_t>& indices);
+    /// The number of curves, without those removed.
     CURVEWISE_EXPORT std::size_t size() const;
-    /// Copies of the points: valid as long as the index.
+    /// Copies of the points, without those removed: valid as long as the index.
     CURVEWISE_EXPORT std::vector<CurveView> curves() const;
+    /// The indices of the curves, in ascending order.
+    CURVEWISE_EXPORT std::vector<std::int64_t> indices() const;
+    /// The index that the next curve will have.
+    CURVEWISE_EXPORT std::int64_t next_index() const;
 
     /// Writes the n_neighbors nearest of X[i] (as P, the curves of the index as Q) to distances[i *
     /// n_neighbors] and indices[i * n_neighbors] on, in ascending order. Throws before any work:
@@ -91,16 +108,22 @@ class Index {
                                      double* distances, std::int64_t* indices,
                                      const SearchOptions& options = {},
                                      Control* control = nullptr) const;
-    /// The same for every curve of the index, without the curve itself.
+    /// The same for every curve of the index, without the curve itself: size() rows in the order of
+    /// indices(). No other thread may add or remove curves between size() and this call.
     CURVEWISE_EXPORT void kneighbors(std::ptrdiff_t n_neighbors, double* distances,
                                      std::int64_t* indices, const SearchOptions& options = {},
                                      Control* control = nullptr) const;
+    /// The same, where others may: n_neighbors neighbours a row, row after row.
+    CURVEWISE_EXPORT std::vector<Neighbor> kneighbors(std::ptrdiff_t n_neighbors,
+                                                      const SearchOptions& options = {},
+                                                      Control* control = nullptr) const;
 
     /// All curves whose distance from X[i] is at most `radius`: a number >= 0, except where the
     /// measure may be negative (dtw with own steps of negative weight).
     CURVEWISE_EXPORT std::vector<std::vector<Neighbor>> radius_neighbors(
         const std::vector<CurveView>& X, double radius, const SearchOptions& options = {},
         Control* control = nullptr) const;
+    /// Of every curve of the index, without the curve itself, in the order of indices().
     CURVEWISE_EXPORT std::vector<std::vector<Neighbor>> radius_neighbors(
         double radius, const SearchOptions& options = {}, Control* control = nullptr) const;
 

@@ -1,23 +1,21 @@
-// Index: the curves, prepared by their measure, which keeps their points, and queries shared out
-// among threads. A query is one thread's, so that the number of threads changes nothing.
+// Index: the curves, prepared by their measure, which keeps their points.
 //
-// A call sees the curves that were there when it began. It neither waits for add() nor keeps it
-// waiting: add() writes behind the curves that others see, and then shows the new ones to the calls
-// that begin later.
+// A call sees the curves that were there when it began. It neither waits for add() or remove() nor
+// keeps them waiting: add() writes behind the curves that others see, remove() only marks curves,
+// and both then show another view to the calls that begin later.
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <functional>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "curves/owned_curve.hpp"
 #include "curvewise/nearest.hpp"
-#include "nearest/neighbor_search.hpp"
+#include "nearest/callers.hpp"
+#include "nearest/index_view.hpp"
+#include "nearest/query_run.hpp"
 #include "pairwise/batch.hpp"
 #include "runtime/workers.hpp"
 
@@ -28,171 +26,87 @@ using curves::CheckedCurve;
 using curves::CurveInDoubles;
 using curves::CurveList;
 using curves::LoadedCurve;
+using nearest::Caller;
+using nearest::Callers;
+using nearest::IndexView;
 using nearest::NeighborSearch;
+using nearest::Queries;
+using nearest::QueryRun;
+using nearest::SizeCounts;
+using nearest::TargetIndices;
 using pairwise::Seen;
 using pairwise::TargetQuery;
 using pairwise::Targets;
 using runtime::Poller;
 
-// Answers one query: for curve `i` of the queries, without the target `left_out`, or -1.
-using Answer = std::function<void(NeighborSearch& search, TargetQuery& query, std::size_t i,
-                                  std::int64_t all_steps, std::ptrdiff_t left_out)>;
-
-// The queries of one call: curves of the caller's, or all of the index, each without itself.
-struct Queries {
-    std::vector<CheckedCurve> curves;
-    bool are_targets;
-};
-
-class QueryRun {
-   public:
-    QueryRun(const Targets& targets, const Seen& seen, const Queries& queries, const Answer& answer)
-        : targets_(targets), seen_(seen), queries_(queries), answer_(answer) {}
-
-    SearchRecord run(std::ptrdiff_t workers, Poller& poller) {
-        std::int64_t total = 0;
-        for (const CheckedCurve& P : queries_.curves) total += steps(P);
-        poller.begin(total);
-        const auto useful = static_cast<std::ptrdiff_t>(queries_.curves.size());
-        run_workers(std::min(workers, useful), poller,
-                    [this](std::ptrdiff_t /*w*/, Poller& own) { take_queries(own); });
-        if (failure_) std::rethrow_exception(failure_);
-        poller.finish();
-        return record_;
-    }
-
-   private:
-    std::int64_t steps(const CheckedCurve& P) const noexcept {
-        return targets_.steps(P.curve.size(), seen_);
-    }
-    void take_queries(Poller& poller) noexcept {
-        try {
-            NeighborSearch search(targets_, seen_.size, poller);
-            for (std::size_t i = next_++; i < queries_.curves.size() && !has_failed_; i = next_++) {
-                const LoadedCurve loaded(queries_.curves[i], poller);
-                const CheckedCurve& P = loaded.checked();
-                const std::unique_ptr<TargetQuery> query = targets_.query(P, seen_, poller);
-                answer_(search, *query, i, steps(P),
-                        queries_.are_targets ? static_cast<std::ptrdiff_t>(i) : -1);
-            }
-            const std::lock_guard<std::mutex> lock(mutex_);
-            record_.pairs += search.record().pairs;
-            record_.refined += search.record().refined;
-            record_.computed += search.record().computed;
-        } catch (...) {
-            const std::lock_guard<std::mutex> lock(mutex_);
-            if (!failure_) failure_ = std::current_exception();
-            has_failed_ = true;
-        }
-    }
-
-    const Targets& targets_;
-    const Seen& seen_;
-    const Queries& queries_;
-    const Answer& answer_;
-    std::atomic<std::size_t> next_{0};
-    std::atomic<bool> has_failed_{false};
-    std::mutex mutex_;
-    std::exception_ptr failure_;
-    SearchRecord record_;
-};
-
-// The threads that run calls; a thread is listed once for each of its calls.
-class Callers {
-   public:
-    void add() {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        threads_.push_back(std::this_thread::get_id());
-    }
-    void remove() noexcept {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        threads_.erase(std::find(threads_.begin(), threads_.end(), std::this_thread::get_id()));
-    }
-    bool have_this_thread() const {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        const auto end = threads_.end();
-        return std::find(threads_.begin(), end, std::this_thread::get_id()) != end;
-    }
-
-   private:
-    mutable std::mutex mutex_;
-    std::vector<std::thread::id> threads_;
-};
-
-// As long as this is there, its thread is among the callers.
-class Caller {
-   public:
-    explicit Caller(Callers& callers) : callers_(callers) { callers_.add(); }
-    Caller(const Caller&) = delete;
-    Caller(Caller&&) = delete;
-    Caller& operator=(const Caller&) = delete;
-    Caller& operator=(Caller&&) = delete;
-    ~Caller() { callers_.remove(); }
-
-   private:
-    Callers& callers_;
-};
-
-// What a call sees of an index.
-struct View {
-    Seen seen;
-    std::shared_ptr<const std::set<std::ptrdiff_t>> sizes =  // the numbers of points of the curves
-        std::make_shared<const std::set<std::ptrdiff_t>>();
-};
-
 }  // namespace
 
 class Index::State {
    public:
-    explicit State(const Measure& measure)
-        : measure_(std::visit([](const auto& options) { return pairwise::batch_measure(options); },
+    // The indices of curves to be added first, and of those behind them.
+    State(TargetIndices indices, const Measure& measure)
+        : indices_(std::move(indices)),
+          measure_(std::visit([](const auto& options) { return pairwise::batch_measure(options); },
                               measure)),
           targets_(measure_->make_targets()) {}
 
     void add(const std::vector<CurveView>& curves, Control* control) {
         Poller poller(control);
-        if (callers_.have_this_thread()) {
-            throw std::logic_error(
-                "add was called by the report of a call of the same index, which does not see the "
-                "curves; add them after that call");
-        }
+        refuse_reports("add", "does not see the curves; add them after that call");
         const Caller adding(callers_);
         check_like_first({curves, "curves"}, view());
         const std::unique_ptr<Targets> added = prepared(curves, poller);
+        SizeCounts::Counts more;
+        for (const CurveView& curve : curves) ++more[curve.size()];
         poller.finish();  // the last that may throw Stopped
-        const std::lock_guard<std::mutex> lock(adding_);
-        View next = view();
+        const std::lock_guard<std::mutex> lock(changing_);
+        IndexView next = view();
         check_like_first({curves, "curves"}, next);  // another may have added the first meanwhile
-        next.sizes = with_sizes(next.sizes, curves);
+        next.sizes = counts_.with(more, std::move(next.sizes));
+        const Seen seen = added->seen();
+        next.seen.size += seen.size;
+        next.seen.remaining += seen.size;
+        next.seen.points += seen.points;
         targets_->make_room(*added);
-        targets_->take(*added);  // does not fail
-        next.seen = targets_->seen();
+        targets_->take(*added);  // from here on nothing fails
+        counts_.add(more);
         show(std::move(next));
     }
 
-    std::size_t size() const { return static_cast<std::size_t>(view().seen.size); }
-
-    std::vector<CurveView> curves() const {
-        const std::ptrdiff_t size = view().seen.size;
-        std::vector<CurveView> views;
-        for (std::ptrdiff_t j = 0; j < size; ++j) views.push_back(targets_->curve(j).curve);
-        return views;
+    void remove(const std::vector<std::int64_t>& indices) {
+        refuse_reports("remove", "still sees the curves; remove them after that call");
+        SizeCounts::Counts fewer;
+        const std::lock_guard<std::mutex> lock(changing_);
+        IndexView next = without(view(), indices, indices_, *targets_, fewer);
+        next.sizes = counts_.without(fewer, std::move(next.sizes));
+        counts_.remove(fewer);
+        show(std::move(next));
     }
 
-    // Of the curves of X, or, where that is null, of the index.
-    void kneighbors(const std::vector<CurveView>* X, std::ptrdiff_t count, double* distances,
-                    std::int64_t* indices, const SearchOptions& options, Control* control) const {
+    std::size_t size() const { return static_cast<std::size_t>(view().seen.remaining); }
+    std::int64_t next_index() const { return indices_[view().seen.size]; }
+
+    std::vector<CurveView> curves() const {
+        std::vector<CurveView> views;
+        for (const std::ptrdiff_t j : view().targets()) views.push_back(targets_->curve(j).curve);
+        return views;
+    }
+    std::vector<std::int64_t> indices() const { return indices_of(view().targets()); }
+
+    // Of the curves of X, or, where that is null, of the index. Calls begin(the number of rows),
+    // then write(row, neighbors) in any thread.
+    template <class Begin, class Write>
+    void kneighbors(const std::vector<CurveView>* X, std::ptrdiff_t count,
+                    const SearchOptions& options, Control* control, Begin begin,
+                    Write write) const {
         const Caller asking(callers_);
-        const View view = this->view();
-        check_count(count, view.seen.size, X == nullptr);
+        const IndexView view = this->view();
+        check_count(count, view.seen.remaining, X == nullptr);
+        begin(X == nullptr ? static_cast<std::size_t>(view.seen.remaining) : X->size());
         ask(X, view, options, control,
-            [=](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
+            [&](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
                 std::ptrdiff_t left_out) {
-                auto place = static_cast<std::ptrdiff_t>(i) * count;
-                for (const Neighbor& found : search.nearest(query, all_steps, count, left_out)) {
-                    distances[place] = found.distance;
-                    indices[place++] = found.index;
-                }
+                write(i, with_indices(search.nearest(query, all_steps, count, left_out)));
             });
     }
 
@@ -200,10 +114,10 @@ class Index::State {
                                                         double radius, const SearchOptions& options,
                                                         Control* control) const {
         const Caller asking(callers_);
-        const View view = this->view();
+        const IndexView view = this->view();
         curves::check_limit("radius", radius, measure_->may_be_negative());
         std::vector<std::vector<Neighbor>> results(
-            X == nullptr ? static_cast<std::size_t>(view.seen.size) : X->size());
+            X == nullptr ? static_cast<std::size_t>(view.seen.remaining) : X->size());
         ask(X, view, options, control,
             [&](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
                 std::ptrdiff_t left_out) {
@@ -213,31 +127,36 @@ class Index::State {
                 if (options.sort_results) {
                     std::sort(results[i].begin(), results[i].end(), nearest::is_nearer);
                 }
+                results[i] = with_indices(std::move(results[i]));
             });
         return results;
     }
 
    private:
-    using Sizes = std::shared_ptr<const std::set<std::ptrdiff_t>>;
-
-    View view() const {
+    IndexView view() const {
         const std::lock_guard<std::mutex> lock(showing_);
         return view_;
     }
-    void show(View&& next) noexcept {
+    void show(IndexView&& next) noexcept {
         const std::lock_guard<std::mutex> lock(showing_);
         std::swap(view_, next);
     }
 
-    // The same, unless one of the curves has another number of points.
-    static Sizes with_sizes(const Sizes& sizes, const std::vector<CurveView>& curves) {
-        std::set<std::ptrdiff_t> others;
-        for (const CurveView& curve : curves) {
-            if (sizes->count(curve.size()) == 0) others.insert(curve.size());
-        }
-        if (others.empty()) return sizes;
-        others.insert(sizes->begin(), sizes->end());
-        return std::make_shared<const std::set<std::ptrdiff_t>>(std::move(others));
+    std::vector<std::int64_t> indices_of(const std::vector<std::ptrdiff_t>& targets) const {
+        std::vector<std::int64_t> indices;
+        indices.reserve(targets.size());
+        for (const std::ptrdiff_t j : targets) indices.push_back(indices_[j]);
+        return indices;
+    }
+    std::vector<Neighbor> with_indices(std::vector<Neighbor> targets) const noexcept {
+        for (Neighbor& found : targets) found.index = indices_[found.index];
+        return targets;
+    }
+
+    void refuse_reports(const std::string& call, const std::string& why) const {
+        if (!callers_.have_this_thread()) return;
+        throw std::logic_error(call + " was called by the report of a call of the same index, " +
+                               "which " + why);
     }
 
     // Made ready without a lock, while others search.
@@ -256,27 +175,31 @@ class Index::State {
         return added;
     }
 
-    void ask(const std::vector<CurveView>* X, const View& view, const SearchOptions& options,
-             Control* control, const Answer& answer) const {
+    void ask(const std::vector<CurveView>* X, const IndexView& view, const SearchOptions& options,
+             Control* control, const nearest::Answer& answer) const {
         Poller poller(control);
         const std::ptrdiff_t workers = runtime::resolve_workers(options.workers);
         const Queries queries = checked(X, view, poller);
         const SearchRecord record =
             QueryRun(*targets_, view.seen, queries, answer).run(workers, poller);
+        if (options.rows != nullptr && X == nullptr) {
+            *options.rows = indices_of(queries.targets);
+        }
         if (options.record == nullptr) return;
         options.record->pairs += record.pairs;
         options.record->refined += record.refined;
         options.record->computed += record.computed;
     }
 
-    Queries checked(const std::vector<CurveView>* X, const View& view, Poller& poller) const {
-        Queries queries{{}, X == nullptr};
+    Queries checked(const std::vector<CurveView>* X, const IndexView& view, Poller& poller) const {
+        Queries queries;
         if (X == nullptr) {
-            for (std::ptrdiff_t j = 0; j < view.seen.size; ++j) {
+            queries.targets = view.targets();
+            for (const std::ptrdiff_t j : queries.targets) {
                 poller.poll_in_loop(static_cast<std::size_t>(j));
                 queries.curves.push_back(targets_->curve(j));
                 // It may have been added behind others.
-                queries.curves.back().name = "curves[" + std::to_string(j) + "]";
+                queries.curves.back().name = "curves[" + std::to_string(indices_[j]) + "]";
             }
         } else {
             const CurveList list(*X, "X");
@@ -302,12 +225,13 @@ class Index::State {
     }
 
     // The shapes of a list, which must agree with those of the index.
-    void check_like_first(const CurveList& list, const View& view) const {
+    void check_like_first(const CurveList& list, const IndexView& view) const {
         if (view.seen.size == 0) {
             check_shapes(measure_->requirements(), list);
         } else {
             const CurveView& first = targets_->curve(0).curve;
-            check_shapes(measure_->requirements(), {first, "curve 0 of the index"}, list);
+            const std::string name = "curve " + std::to_string(indices_[0]) + " of the index";
+            check_shapes(measure_->requirements(), {first, name.c_str()}, list);
         }
     }
 
@@ -320,16 +244,28 @@ class Index::State {
             (leaves_itself_out ? ", the other curves of the index" : ", the curves of the index"));
     }
 
+    TargetIndices indices_;
     std::unique_ptr<const pairwise::BatchMeasure> measure_;
     std::unique_ptr<Targets> targets_;
-    std::mutex adding_;           // has who makes the targets more
+    std::mutex changing_;         // has who makes the targets more, or removes some
     mutable std::mutex showing_;  // has who reads or replaces the view, for a moment
-    View view_;
+    IndexView view_;
+    SizeCounts counts_;
     mutable Callers callers_;
 };
 
 Index::Index(const std::vector<CurveView>& curves, const Measure& measure, Control* control)
-    : state_(std::make_unique<State>(measure)) {
+    : state_(std::make_unique<State>(TargetIndices(), measure)) {
+    state_->add(curves, control);
+}
+Index::Index(const std::vector<CurveView>& curves, std::vector<std::int64_t> indices,
+             std::int64_t next_index, const Measure& measure, Control* control) {
+    if (indices.size() != curves.size()) {
+        throw std::invalid_argument("there are " + std::to_string(indices.size()) +
+                                    " indices for " + std::to_string(curves.size()) +
+                                    " curves; give one for each");
+    }
+    state_ = std::make_unique<State>(TargetIndices(std::move(indices), next_index), measure);
     state_->add(curves, control);
 }
 Index::Index(Index&&) noexcept = default;
@@ -349,15 +285,53 @@ std::vector<CurveView> Index::curves() const {
     return state_ ? state_->curves() : std::vector<CurveView>();
 }
 
+void Index::remove(const std::vector<std::int64_t>& indices) { state().remove(indices); }
+std::vector<std::int64_t> Index::indices() const {
+    return state_ ? state_->indices() : std::vector<std::int64_t>();
+}
+std::int64_t Index::next_index() const { return state_ ? state_->next_index() : 0; }
+
+namespace {
+
+// Writes rows of `count` neighbors.
+auto writer(std::ptrdiff_t count, double* distances, std::int64_t* indices) {
+    return [=](std::size_t row, const std::vector<Neighbor>& neighbors) {
+        std::ptrdiff_t place = static_cast<std::ptrdiff_t>(row) * count;
+        for (const Neighbor& found : neighbors) {
+            distances[place] = found.distance;
+            indices[place++] = found.index;
+        }
+    };
+}
+
+}  // namespace
+
 void Index::kneighbors(const std::vector<CurveView>& X, std::ptrdiff_t n_neighbors,
                        double* distances, std::int64_t* indices, const SearchOptions& options,
                        Control* control) const {
-    state().kneighbors(&X, n_neighbors, distances, indices, options, control);
+    state().kneighbors(
+        &X, n_neighbors, options, control, [](std::size_t) {},
+        writer(n_neighbors, distances, indices));
 }
 
 void Index::kneighbors(std::ptrdiff_t n_neighbors, double* distances, std::int64_t* indices,
                        const SearchOptions& options, Control* control) const {
-    state().kneighbors(nullptr, n_neighbors, distances, indices, options, control);
+    state().kneighbors(
+        nullptr, n_neighbors, options, control, [](std::size_t) {},
+        writer(n_neighbors, distances, indices));
+}
+
+std::vector<Neighbor> Index::kneighbors(std::ptrdiff_t n_neighbors, const SearchOptions& options,
+                                        Control* control) const {
+    std::vector<Neighbor> all;
+    state().kneighbors(
+        nullptr, n_neighbors, options, control,
+        [&](std::size_t rows) { all.resize(rows * static_cast<std::size_t>(n_neighbors)); },
+        [&](std::size_t row, const std::vector<Neighbor>& neighbors) {
+            std::copy(neighbors.begin(), neighbors.end(),
+                      all.begin() + static_cast<std::ptrdiff_t>(row) * n_neighbors);
+        });
+    return all;
 }
 
 std::vector<std::vector<Neighbor>> Index::radius_neighbors(const std::vector<CurveView>& X,

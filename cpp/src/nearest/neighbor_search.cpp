@@ -47,9 +47,9 @@ bool is_nearer(const Neighbor& a, const Neighbor& b) noexcept {
     return a_is_nan == b_is_nan ? a.index < b.index : b_is_nan;
 }
 
-NeighborSearch::NeighborSearch(const pairwise::Targets& targets, std::ptrdiff_t count,
+NeighborSearch::NeighborSearch(const pairwise::Targets& targets, const pairwise::Seen& seen,
                                Poller& poller)
-    : size_(count), poller_(poller), memory_(targets.make_memory()) {}
+    : seen_(seen), poller_(poller), memory_(targets.make_memory()) {}
 
 bool NeighborSearch::comes_later(const Candidate& a, const Candidate& b) noexcept {
     return a.bound != b.bound ? a.bound > b.bound : a.target > b.target;
@@ -63,10 +63,11 @@ std::vector<Neighbor> NeighborSearch::nearest(TargetQuery& query, std::int64_t a
     most_ = static_cast<std::size_t>(count_wanted);
     best_.clear();
     heap_.clear();
-    quick_.resize(static_cast<std::size_t>(size_));
+    quick_.resize(static_cast<std::size_t>(seen_.size));
     query.quick(quick_.data());
-    for (std::ptrdiff_t j = 0; j < size_; ++j) {
-        if (j != left_out) heap_.push_back({quick_[static_cast<std::size_t>(j)], j, 0});
+    for (std::ptrdiff_t j = 0; j < seen_.size; ++j) {
+        if (j != left_out && seen_.has(j))
+            heap_.push_back({quick_[static_cast<std::size_t>(j)], j, 0});
     }
     record_.pairs += static_cast<std::int64_t>(heap_.size());
     std::make_heap(heap_.begin(), heap_.end(), comes_later);
@@ -104,10 +105,10 @@ std::vector<Neighbor> NeighborSearch::within(TargetQuery& query, std::int64_t al
     const OwnCount own_count(poller_);
     counted_ = 0;
     std::vector<Neighbor> found;
-    quick_.resize(static_cast<std::size_t>(size_));
+    quick_.resize(static_cast<std::size_t>(seen_.size));
     query.quick(quick_.data());
-    for (std::ptrdiff_t j = 0; j < size_; ++j) {
-        if (j == left_out) continue;
+    for (std::ptrdiff_t j = 0; j < seen_.size; ++j) {
+        if (j == left_out || !seen_.has(j)) continue;
         ++record_.pairs;
         Candidate candidate{quick_[static_cast<std::size_t>(j)], j, 0};
         if (candidate.bound > radius) continue;

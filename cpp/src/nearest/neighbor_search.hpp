@@ -27,8 +27,8 @@ bool is_nearer(const Neighbor& a, const Neighbor& b) noexcept;
 
 class NeighborSearch {
    public:
-    // Of the first `count` targets. Throws Stopped where the poller says so.
-    NeighborSearch(const pairwise::Targets& targets, std::ptrdiff_t count, Poller& poller);
+    // Of the targets that are seen. Throws Stopped where the poller says so.
+    NeighborSearch(const pairwise::Targets& targets, const pairwise::Seen& seen, Poller& poller);
 
     // The `count` nearest, in order. `left_out`: a target to skip, or -1. Counts `all_steps` as
     // done.
@@ -59,7 +59,7 @@ class NeighborSearch {
     double cutoff() const noexcept;
     void finish_pair(TargetQuery& query, std::ptrdiff_t target);
 
-    std::ptrdiff_t size_;  // of the targets
+    pairwise::Seen seen_;
     Poller& poller_;
     std::unique_ptr<pairwise::ThreadMemory> memory_;
     std::vector<double> quick_;

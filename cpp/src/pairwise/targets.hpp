@@ -27,7 +27,7 @@ class TargetQuery {
 
     // The number of bounds of a pair, at least 1.
     virtual int levels() const noexcept = 0;
-    // Writes the first bound of each target that was seen when this was made.
+    // Writes the first bound of each target that was seen when this was made, with those removed.
     virtual void quick(double* bounds) = 0;
     // That of a level above 0.
     virtual double refined(std::ptrdiff_t j, int level) = 0;
@@ -38,10 +38,19 @@ class TargetQuery {
     virtual std::int64_t steps(std::ptrdiff_t j) const noexcept = 0;
 };
 
-// The targets that a call sees: the first of them. Others may be added meanwhile.
+// The targets that a call sees: those of the first `size` that are not removed. Others may be added
+// or removed meanwhile.
 struct Seen {
     std::ptrdiff_t size = 0;
-    std::int64_t points = 0;  // of all together
+    std::ptrdiff_t remaining = 0;
+    std::int64_t points = 0;  // of all that remain together
+    // By target, shorter where the last ones remain; null if none is removed.
+    std::shared_ptr<const std::vector<bool>> removed;
+
+    bool has(std::ptrdiff_t j) const noexcept {
+        const auto place = static_cast<std::size_t>(j);
+        return removed == nullptr || place >= removed->size() || !(*removed)[place];
+    }
 };
 
 // All curves that take Q's place, prepared. What is added stays as it is. So queries may be made,
@@ -63,7 +72,8 @@ class Targets {
     // Adds those of `others`, of the same measure, for which room was made, and leaves it empty.
     virtual void make_room(const Targets& others) = 0;
     virtual void take(Targets& others) noexcept = 0;
-    // All, for the thread that adds.
+    // All, for the thread that adds. None is removed: what is removed stays here, and callers skip
+    // it.
     virtual Seen seen() const noexcept = 0;
 
     // As it was added, with the points that are kept.

@@ -94,7 +94,9 @@ class TargetsOf final : public Targets {
         bounds_.take(others.bounds_);
         points_ += std::exchange(others.points_, 0);
     }
-    Seen seen() const noexcept override { return {curves_.size(), points_}; }
+    Seen seen() const noexcept override {
+        return {curves_.size(), curves_.size(), points_, nullptr};
+    }
     const CheckedCurve& curve(std::ptrdiff_t j) const noexcept override {
         return curves_[j].checked;
     }
@@ -102,7 +104,7 @@ class TargetsOf final : public Targets {
         measure_.check_p(typename M::PreparedP(P, poller), poller);
     }
     std::int64_t steps(std::ptrdiff_t n, const Seen& seen) const noexcept override {
-        return M::steps(n, seen.size, seen.points);
+        return M::steps(n, seen.remaining, seen.points);
     }
     std::unique_ptr<TargetQuery> query(const CheckedCurve& P, const Seen& seen,
                                        Poller& poller) const override {

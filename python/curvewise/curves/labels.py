@@ -9,7 +9,7 @@ triangle.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from importlib import import_module
 from typing import Any, TypeAlias
 
@@ -28,6 +28,7 @@ __all__ = [
     "labelled_matrix",
     "labelled_triangle",
     "labels_at",
+    "taken",
     "unlabelled",
 ]
 
@@ -113,11 +114,11 @@ def _some(index: Any) -> str:
     return f"{shown}, …" if len(index) > 4 else shown
 
 
-def check_distinct(labels: Labels, name: str, known: Labels = None) -> None:
+def check_distinct(labels: Labels, name: str, known: Container[Any] = ()) -> None:
     """Refuse a label that two curves have, here or among those `known`, where labels answer."""
-    seen = set(() if known is None else known)
+    seen = set()
     for label in () if labels is None else labels:
-        if label in seen:
+        if label in seen or label in known:
             raise ValueError(
                 f"{name} has the label {label!r}, which another curve has, too; give distinct "
                 "labels, since the answer is a label"
@@ -151,6 +152,13 @@ def labelled_triangle(values: npt.NDArray[Any], labels: Labels) -> Any:
 def labels_at(labels: Labels, places: npt.NDArray[np.int64]) -> npt.NDArray[Any]:
     """Return the labels of curves by their indices; without labels the indices."""
     return places if labels is None else np.asarray(_flat(labels).to_numpy()[places])
+
+
+def taken(labels: Labels, places: npt.NDArray[np.int64]) -> Labels:
+    """Return the labels of some curves, by their ascending indices, as they came in."""
+    if len(places) == len(labels):
+        return labels
+    return [labels[i] for i in places] if isinstance(labels, list) else labels.take(places)
 
 
 def _flat(labels: Labels) -> Any:

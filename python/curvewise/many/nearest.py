@@ -7,12 +7,11 @@ answers.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from functools import partial
 from importlib import import_module
 from itertools import pairwise
-from threading import get_ident
+from threading import RLock, get_ident
 from typing import Any, Literal, SupportsFloat, SupportsIndex, get_args
 
 import numpy as np
@@ -26,15 +25,14 @@ from .._progress import Report, reporting
 from ..curves.inputs import Array, as_curve_list
 from ..curves.labels import (
     Labels,
-    check_distinct,
     labelled_column,
     labelled_matrix,
-    labels_at,
     unlabelled,
 )
 from ..curves.layouts import Layout
 from ..curves.reference_systems import check_reference_systems
 from ..measures.registry import MeasureName
+from .index_labels import IndexLabels
 from .pairwise import Curves, LabelledCurves, _check_names, checked_limit
 
 __all__ = ["Index", "checked_count"]
@@ -114,12 +112,16 @@ class Index:
         self._measure = _check_names(measure, options)
         self._options = options
         self._crs = check_reference_systems(options, curves=curves)
-        curves, self._labels = unlabelled(curves, "curves")
-        check_distinct(self._labels, "curves")
+        curves, labels = unlabelled(curves, "curves")
+        self._labels = IndexLabels(labels)
         given = as_curve_list(curves, "curves", keep_float32=True, layout=layout)
-        self._index = CompiledIndex(given, self._measure, options)
         # Later curves have the same number of coordinates, which settles their layout.
         self._layout: Layout | None = "channels_last" if given and layout is None else layout
+        self._hold(CompiledIndex(given, self._measure, options))
+
+    def _hold(self, compiled: CompiledIndex) -> None:
+        self._index = compiled
+        self._changing = RLock()  # has who adds or removes curves
         self._searching: list[int] = []  # threads; a thread appears once for each of its searches
 
     def __len__(self) -> int:
@@ -130,9 +132,24 @@ class Index:
         return f"Index(<{len(self)} curves>, {self._measure!r}{options})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        arguments = (self._index.curves(), self._measure)
-        state = {"_labels": self._labels, "_layout": self._layout, "_crs": self._crs}
-        return partial(Index, layout="channels_last", **self._options), arguments, state
+        with self._changing:
+            contents = self._index.curves(), self._index.indices(), self._index.next_index()
+            return _restored, (self._described(), *contents)
+
+    def _described(self) -> dict[str, Any]:
+        """Return all attributes but the curves, for a copy."""
+        return {
+            "_measure": self._measure,
+            "_options": self._options,
+            "_crs": self._crs,
+            "_labels": self._labels.all,
+            "_layout": self._layout,
+        }
+
+    @property
+    def indices(self) -> Places:
+        """Indices of the curves, ascending: 0, 1, ..., without those of removed curves."""
+        return self._index.indices()
 
     def add(self, curves: Curves | LabelledCurves) -> None:
         """Add curves behind the existing ones.
@@ -156,27 +173,61 @@ class Index:
         O(n) time for each curve. Searches that run in other threads go on. They see the curves that
         were in the index when they began.
         """
-        if get_ident() in self._searching:
-            raise RuntimeError(
-                "add was called by the progress function of a search in the same index, which does "
-                "not see the curves; add them after the search"
-            )
-        crs = check_reference_systems(self._options, known=self._crs, curves=curves)
-        curves, labels = unlabelled(curves, "curves")
-        if (labels is None) != (self._labels is None):
-            known, new = ("no labels", "some") if self._labels is None else ("labels", "none")
-            raise ValueError(
-                f"the curves of the index have {known} and those to be added {new}; give all of "
-                "them labels, as the keys of a dict, or none"
-            )
-        check_distinct(labels, "curves", self._labels)
-        added = as_curve_list(curves, "curves", keep_float32=True, layout=self._layout)
-        self._index.add(added)
-        self._crs = crs
-        if added:
-            self._layout = self._layout or "channels_last"
-        if labels is not None:
-            self._labels = [*self._labels, *labels]
+        self._refuse_reports("add", "does not see the curves; add")
+        with self._changing:
+            crs = check_reference_systems(self._options, known=self._crs, curves=curves)
+            curves, labels = unlabelled(curves, "curves")
+            with self._labels.added(labels):
+                added = as_curve_list(curves, "curves", keep_float32=True, layout=self._layout)
+                self._index.add(added)
+            self._crs = crs
+            if added:
+                self._layout = self._layout or "channels_last"
+
+    def remove(self, indices: Iterable[Any]) -> None:
+        """Remove curves; the indices of the other curves stay.
+
+        Parameters
+        ----------
+        indices : sequence
+            The labels of the curves, if the curves of the index have labels, and otherwise their
+            indices. All of the curves are removed, or, if one is refused, no curve.
+
+        Raises
+        ------
+        ValueError
+            If a curve is not in the index, was removed before, or is given twice.
+        TypeError
+            If `indices` is not a sequence.
+        RuntimeError
+            If the progress function of a search in this index calls this method.
+
+        Notes
+        -----
+        O(1) time for each curve, and a copy of one bit for each curve of the index. Searches that
+        run in other threads still see the curves. Their memory is not freed; a copy of the index,
+        by pickle for example, does not have it. An index is not used again, but a label may be.
+
+        Examples
+        --------
+        >>> import curvewise
+        >>> index = curvewise.Index([[0, 1, 2, 3], [0, 0, 3, 3], [0, 3, 0]])
+        >>> index.remove([1])
+        >>> index.indices.tolist()
+        [0, 2]
+        >>> index.kneighbors([[0, 0, 3, 3]], n_neighbors=2)[1].tolist()
+        [[0, 2]]
+        """
+        self._refuse_reports("remove", "still sees the curves; remove")
+        if isinstance(indices, str | bytes) or not hasattr(indices, "__iter__"):
+            raise TypeError(f"indices is {indices!r}; give a list, such as [{indices!r}]")
+        given = list(indices)
+        with self._changing:
+            if self._labels.all is None:
+                self._index.remove(self._checked_indices(given))
+                return
+            self._index.remove(self._labels.indices_of(given))
+            self._labels.remove(given)
 
     @filled()
     def kneighbors(
@@ -193,8 +244,8 @@ class Index:
         Parameters
         ----------
         X : array_like, shape (q, n, d), or a sequence of curves, optional
-            The query curves. By default the curves of the index; a curve does not count as its own
-            neighbour then.
+            The query curves. By default the curves of the index, in the order of :attr:`indices`;
+            a curve does not count as its own neighbour then.
         n_neighbors : int
             Number of neighbours of each query, from 1 to the number of curves.
         return_distance : bool
@@ -229,8 +280,10 @@ class Index:
         Threads share the queries: a single query is not divided. Ctrl-C as for
         :func:`curvewise.cdist`.
         """
-        distances, indices, names = self._nearest(X, n_neighbors, workers, progress)
-        found = labelled_matrix(labels_at(self._labels, indices), names, None)
+        distances, indices, rows, names = self._nearest(X, n_neighbors, workers, progress)
+        if rows is not None:
+            names = self._labels.of_rows(rows)
+        found = labelled_matrix(self._labels.at(indices), names, None)
         return (labelled_matrix(distances, names, None), found) if return_distance else found
 
     @filled()
@@ -279,10 +332,12 @@ class Index:
         the computation of their distance shows it. Without distances, and without sorting by them,
         frechet_continuous only decides whether a curve is within, which is several times faster.
         """
-        distances, indices, begins, names = self._within(
+        distances, indices, begins, rows, names = self._within(
             X, radius, sort_results, return_distance, workers, progress
         )
-        found = labelled_column(_divided(labels_at(self._labels, indices), begins), names)
+        if rows is not None:
+            names = self._labels.of_rows(rows)
+        found = labelled_column(_divided(self._labels.at(indices), begins), names)
         if not return_distance:
             return found
         return labelled_column(_divided(distances, begins), names), found
@@ -309,8 +364,10 @@ class Index:
         Returns
         -------
         scipy.sparse.csr_matrix, shape (q, k)
-            Row i has the neighbours of X[i], without labels. With "distance", estimators of
-            scikit-learn with ``metric="precomputed"`` accept it, if they need no more neighbours.
+            Row i has the neighbours of X[i], without labels. Column j has the curve of index j: it
+            is empty if the curve was removed, and without X its row, too. With "distance",
+            estimators of scikit-learn with ``metric="precomputed"`` accept it, if they need no more
+            neighbours.
 
         Raises
         ------
@@ -330,9 +387,9 @@ class Index:
         [[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0]]
         """
         check_choice("mode", mode, get_args(GraphMode))
-        distances, indices, _ = self._nearest(X, n_neighbors, workers, progress)
+        distances, indices, rows, _ = self._nearest(X, n_neighbors, workers, progress)
         begins = np.arange(len(indices) + 1) * indices.shape[1]
-        return self._graph(mode, distances.ravel(), indices.ravel(), begins)
+        return self._graph(mode, distances.ravel(), indices.ravel(), begins, rows)
 
     @filled()
     def radius_neighbors_graph(
@@ -356,7 +413,8 @@ class Index:
         Returns
         -------
         scipy.sparse.csr_matrix, shape (q, k)
-            Row i has the neighbours of X[i], in ascending order.
+            Row i has the neighbours of X[i], in ascending order. Removed curves as for
+            :meth:`kneighbors_graph`.
 
         Raises
         ------
@@ -368,7 +426,23 @@ class Index:
         As for :meth:`kneighbors`.
         """
         check_choice("mode", mode, get_args(GraphMode))
-        return self._graph(mode, *self._within(X, radius, True, True, workers, progress)[:3])
+        return self._graph(mode, *self._within(X, radius, True, True, workers, progress)[:4])
+
+    def _refuse_reports(self, call: str, why: str) -> None:
+        if get_ident() in self._searching:
+            raise RuntimeError(
+                f"{call} was called by the progress function of a search in the same index, which "
+                f"{why} them after the search"
+            )
+
+    def _checked_indices(self, indices: list[Any]) -> list[int]:
+        most = self._index.next_index() - 1
+        advice = f"give indices of curves of the index, from 0 to {most}"
+        if most < 0:
+            advice = "the index has no curves"
+        return [
+            whole_number(f"indices[{k}]", index, 0, advice, most) for k, index in enumerate(indices)
+        ]
 
     @contextmanager
     def _reporting(self, progress: bool | Report) -> Iterator[Report | None]:
@@ -386,23 +460,23 @@ class Index:
         n_neighbors: SupportsIndex,
         workers: SupportsIndex,
         progress: bool | Report,
-    ) -> tuple[Array, Places, Labels]:
-        """Return distances and places of neighbours, and labels of the queries."""
+    ) -> tuple[Array, Places, Places | None, Labels]:
+        """Return distances and indices of neighbours, indices of own queries, labels of others."""
         queries, names = self._queries(X)
         which = "the other curves of the index" if X is None else "the curves of the index"
         count = checked_count(n_neighbors, len(self) - (X is None), which)
         with self._reporting(progress) as report:
-            distances, indices, _ = self._index.kneighbors(queries, count, workers, report)
-        return distances, indices, names
+            distances, indices, _, rows = self._index.kneighbors(queries, count, workers, report)
+        return distances, indices, rows, names
 
     def _queries(self, X: Curves | LabelledCurves | None) -> tuple[list[Array] | None, Labels]:
         """Return the queries and, for an answer with labels, the labels of its rows."""
         if X is None:
-            return None, self._labels
+            return None, None
         check_reference_systems(self._options, known=self._crs, X=X)
         X, names = unlabelled(X, "X")
         queries = as_curve_list(X, "X", keep_float32=True, layout=self._layout)
-        counted = names is None and self._labels is not None
+        counted = names is None and self._labels.all is not None
         return queries, range(len(queries)) if counted else names
 
     def _within(
@@ -413,20 +487,44 @@ class Index:
         with_distances: bool,
         workers: SupportsIndex,
         progress: bool | Report,
-    ) -> tuple[Array, Places, Places, Labels]:
+    ) -> tuple[Array, Places, Places, Places | None, Labels]:
         queries, names = self._queries(X)
         limit = checked_limit("radius", radius, self._measure, self._options)
         with self._reporting(progress) as report:
-            found = self._index.radius_neighbors(
+            distances, indices, begins, _, rows = self._index.radius_neighbors(
                 queries, limit, bool(sort_results), bool(with_distances), workers, report
             )
-        return *found[:3], names
+        return distances, indices, begins, rows, names
 
-    def _graph(self, mode: GraphMode, distances: Array, indices: Places, begins: Places) -> Any:
+    def _graph(
+        self,
+        mode: GraphMode,
+        distances: Array,
+        indices: Places,
+        begins: Places,
+        rows: Places | None,
+    ) -> Any:
         with extra("compat", "a graph of neighbours needs scipy"):
             csr_matrix = import_module("scipy.sparse").csr_matrix
+        columns = self._index.next_index()
+        if rows is not None:
+            counts = np.zeros(columns + 1, dtype=np.int64)
+            counts[rows + 1] = np.diff(begins)
+            begins = np.cumsum(counts)
         values = distances if mode == "distance" else np.ones(len(indices))
-        return csr_matrix((values, indices, begins), shape=(len(begins) - 1, len(self)))
+        return csr_matrix((values, indices, begins), shape=(len(begins) - 1, columns))
+
+
+def _restored(
+    described: dict[str, Any], curves: list[Array], indices: Places, next_index: int
+) -> Index:
+    """Return a copy of an index with the curves that remain."""
+    index = Index.__new__(Index)
+    vars(index).update(described)
+    index._labels = IndexLabels(described["_labels"], indices)
+    given = as_curve_list(curves, "curves", layout="channels_last")  # joblib maps arrays
+    index._hold(CompiledIndex(given, indices, next_index, index._measure, index._options))
+    return index
 
 
 def checked_count(n_neighbors: SupportsIndex, most: int, which: str) -> int:

@@ -1,0 +1,61 @@
+// The queries of one call of an index, shared out among threads. A query is one thread's, so that
+// the number of threads changes nothing.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "curves/checks.hpp"
+#include "nearest/neighbor_search.hpp"
+#include "pairwise/targets.hpp"
+
+namespace curvewise::nearest {
+
+using curves::CheckedCurve;
+using pairwise::Seen;
+using pairwise::Targets;
+
+// Answers one query: for curve `i` of the queries, without the target `left_out`, or -1.
+using Answer = std::function<void(NeighborSearch& search, TargetQuery& query, std::size_t i,
+                                  std::int64_t all_steps, std::ptrdiff_t left_out)>;
+
+// The queries of one call: curves of the caller's, or those of the index, each without itself.
+struct Queries {
+    std::vector<CheckedCurve> curves;
+    std::vector<std::ptrdiff_t> targets;  // none where they are the caller's
+
+    std::ptrdiff_t left_out(std::size_t i) const noexcept {
+        return targets.empty() ? -1 : targets[i];
+    }
+};
+
+class QueryRun {
+   public:
+    QueryRun(const Targets& targets, const Seen& seen, const Queries& queries, const Answer& answer)
+        : targets_(targets), seen_(seen), queries_(queries), answer_(answer) {}
+
+    SearchRecord run(std::ptrdiff_t workers, Poller& poller);
+
+   private:
+    std::int64_t steps(const CheckedCurve& P) const noexcept {
+        return targets_.steps(P.curve.size(), seen_);
+    }
+    void take_queries(Poller& poller) noexcept;
+
+    const Targets& targets_;
+    const Seen& seen_;
+    const Queries& queries_;
+    const Answer& answer_;
+    std::atomic<std::size_t> next_{0};
+    std::atomic<bool> has_failed_{false};
+    std::mutex mutex_;
+    std::exception_ptr failure_;
+    SearchRecord record_;
+};
+
+}  // namespace curvewise::nearest
