@@ -16,7 +16,7 @@ install(TARGETS curvewise curvewise_fortran EXPORT curvewise
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/curvewise DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(FILES fortran/curvewise.f90 DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/curvewise)
+install(DIRECTORY fortran/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/curvewise)
 
 install(EXPORT curvewise NAMESPACE curvewise:: DESTINATION ${curvewise_cmakedir}
   FILE curvewiseTargets.cmake)

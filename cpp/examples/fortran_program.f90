@@ -1,17 +1,16 @@
 ! The five measures of two loops from Fortran, a batch, a material, and what an error looks like.
 program fortran_program
-    use, intrinsic :: iso_c_binding, only: c_loc
     use, intrinsic :: iso_fortran_env, only: real64
     use curvewise, only: area, cdist, chaboche_voce, chaboche_voce_stress, curve_length, &
         curve_length_options, curve_view, dtw, dtw_options, frechet, invalid_argument, &
-        measure_dtw, normalize, pcm, pdist, scale_range, symmetric2
+        normalize, pcm, pdist, scale_range, symmetric2
     implicit none
     real(real64), target :: P(129, 2), Q(65, 2), history(3, 65)
     real(real64), allocatable :: scaled(:, :), pairs(:), table(:, :), stress(:), slopes(:, :)
     ! E, yield, Q, b, C1, gamma1, C2, gamma2
     real(real64), parameter :: steel(8) = [200e3_real64, 300.0_real64, -50.0_real64, 8.0_real64, &
         80e3_real64, 400.0_real64, 5e3_real64, 20.0_real64]
-    type(dtw_options), target :: options = dtw_options(step_pattern=symmetric2, window=80)
+    type(dtw_options) :: options = dtw_options(step_pattern=symmetric2, window=80)
     type(curve_view) :: curves(3)
     real(real64) :: value
     integer :: stat
@@ -36,11 +35,11 @@ program fortran_program
     call show('history', dtw(transpose(history(1:3:2, :)), P))
 
     curves = [curve_view(P), curve_view(Q), curve_view(P(:60, :))]
-    call pdist(curves, measure_dtw, pairs, c_loc(options))
+    call pdist(curves, options, pairs)
     call show('P_and_Q', pairs(1))
     call show('P_and_beginning', pairs(2))
     call show('Q_and_beginning', pairs(3))
-    call cdist(curves(:1), curves(2:), measure_dtw, table)
+    call cdist(curves(:1), curves(2:), dtw_options(), table)
     call show('table', table(1, 2))
 
     call chaboche_voce_stress(chaboche_voce(), steel, [0.001_real64, 0.02_real64, -0.02_real64], &

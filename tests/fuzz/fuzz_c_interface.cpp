@@ -91,11 +91,16 @@ struct AnyOptions {
     curvewise_frechet_continuous_options continuous;
 
     explicit AnyOptions(Choices& choices)
-        : area{any_choice(choices, 4), any_choice(choices, 2), any_choice(choices, 2)},
-          pcm{choices.between(-1, 30), choices.one_in(64) ? 1 : 0},
-          frechet{any_choice(choices, 5), any_number(choices, 2.5), any_workers(choices),
-                  any_choice(choices, 2), any_number(choices, 1.0)},
-          dtw{any_choice(choices, 5),
+        : area{sizeof area, nullptr, any_choice(choices, 4), any_choice(choices, 2),
+               any_choice(choices, 2)},
+          pcm{sizeof pcm, nullptr, choices.between(-1, 30), choices.one_in(64) ? 1 : 0},
+          frechet{sizeof frechet,          nullptr,
+                  any_choice(choices, 5),  any_number(choices, 2.5),
+                  any_workers(choices),    any_choice(choices, 2),
+                  any_number(choices, 1.0)},
+          dtw{sizeof dtw,
+              nullptr,
+              any_choice(choices, 5),
               any_number(choices, 2.5),
               any_choice(choices, 2),
               any_choice(choices, 2),
@@ -106,8 +111,8 @@ struct AnyOptions {
               any_number(choices, HUGE_VAL),
               choices.one_in(4) ? any_number(choices, 0.5) : 0.0,
               any_choice(choices, 2)},
-          curve_length{any_choice(choices, 3)},
-          continuous{any_workers(choices)} {}
+          curve_length{sizeof curve_length, nullptr, any_choice(choices, 3)},
+          continuous{sizeof continuous, nullptr, any_workers(choices)} {}
 
     const void* of(int measure) const {
         const void* const all[] = {&area, &pcm, &frechet, &dtw, &curve_length, &continuous};
@@ -181,7 +186,8 @@ void check_batch(Choices& choices) {
     for (const AnyCurve& one : kept) curves.push_back(one.curve());
     const AnyOptions options(choices);
     const int measure = any_choice(choices, 6);
-    const curvewise_batch_options batch = {any_workers(choices), any_number(choices, HUGE_VAL)};
+    const curvewise_batch_options batch = {sizeof batch, nullptr, any_workers(choices),
+                                           any_number(choices, HUGE_VAL)};
     const void* const given = choices.one_in(4) ? nullptr : options.of(measure);
     std::vector<double> out(40, untouched);
     double* const place = choices.one_in(16) ? nullptr : out.data();

@@ -9,6 +9,28 @@
 #include "check.hpp"
 #include "curvewise/curvewise.h"
 #include "curvewise/version.hpp"
+#include "interface/c_translate.hpp"
+
+namespace {
+
+// A struct as it was in the first version, and as it is now.
+struct First {
+    std::size_t size;
+    curvewise_control* control;
+    double cutoff;
+};
+struct Grown {
+    std::size_t size;
+    curvewise_control* control;
+    double cutoff;
+    double penalty;
+    std::ptrdiff_t offsets;
+};
+
+}  // namespace
+
+template <>
+inline constexpr std::size_t curvewise::c::first_size<Grown> = sizeof(First);
 
 namespace {
 
@@ -89,6 +111,53 @@ void batches_refuse_what_is_none() {
     CHECK_EQUAL(out[0], 0.0);
 }
 
+// A program that was compiled with the first version has nothing behind its own options.
+void older_structs_have_the_defaults_of_newer_options() {
+    constexpr const char* start = "GROWN_DEFAULTS";
+    const auto read = [&](const void* given) {
+        return curvewise::c::covered(*static_cast<const Grown*>(given), {0, nullptr, 1.0, 2.0, 3},
+                                     start);
+    };
+    const First first{sizeof first, nullptr, 7.0};
+    const Grown of_first = read(&first);
+    CHECK_EQUAL(of_first.cutoff, 7.0);
+    CHECK_EQUAL(of_first.penalty, 2.0);
+    CHECK_EQUAL(of_first.offsets, std::ptrdiff_t{3});
+    Grown given{sizeof given, nullptr, 7.0, 8.0, 9};
+    CHECK_EQUAL(read(&given).penalty, 8.0);
+    CHECK_EQUAL(read(&given).offsets, std::ptrdiff_t{9});
+    given.size = sizeof(First) + sizeof(double);  // a version between the two
+    CHECK_EQUAL(read(&given).penalty, 8.0);
+    CHECK_EQUAL(read(&given).offsets, std::ptrdiff_t{3});
+    for (const std::size_t wrong : {std::size_t{0}, sizeof(First) - 8, sizeof(Grown) + 8}) {
+        given.size = wrong;
+        CHECK_THROWS(read(&given), std::invalid_argument,
+                     "the size of the struct is " + std::to_string(wrong) + ", and curvewise " +
+                         curvewise::version + " needs 40; start from GROWN_DEFAULTS");
+    }
+}
+
+void results_are_written_as_far_as_the_struct_reaches() {
+    const Grown result{sizeof result, nullptr, 1.0, 2.0, 3};
+    Grown to{sizeof(First), nullptr, untouched, untouched, 0};
+    curvewise::c::write_covered(result, to, "GROWN");
+    CHECK_EQUAL(to.size, sizeof(First));
+    CHECK_EQUAL(to.cutoff, 1.0);
+    CHECK_EQUAL(to.penalty, untouched);
+    curvewise_comparison found = CURVEWISE_COMPARISON;
+    const curvewise_curve P = curvewise_rows(points, 3, 2), Q = curvewise_rows(points, 2, 2);
+    CHECK_EQUAL(curvewise_compare(&P, &Q, nullptr, &found, nullptr), int{CURVEWISE_OK});
+    CHECK_EQUAL(found.size, sizeof found);
+    CHECK(found.dtw > 0.0);
+}
+
+void a_struct_of_zeros_is_refused() {
+    const curvewise_dtw_options zeros{};
+    refused(answer(curvewise_dtw, &zeros),
+            "the size of the struct is 0, and curvewise " + std::string(curvewise::version) +
+                " needs " + std::to_string(sizeof zeros) + "; start from CURVEWISE_DTW_DEFAULTS");
+}
+
 void the_version_is_that_of_the_library() {
     CHECK_EQUAL(std::string(curvewise_version()), curvewise::version);
 }
@@ -108,5 +177,10 @@ int main(int argc, char** /*argv*/) {
     return check::run({{"options are those given", options_are_those_given},
                        {"null pointers are named", null_pointers_are_named},
                        {"batches refuse what is none", batches_refuse_what_is_none},
+                       {"older structs have the defaults of newer options",
+                        older_structs_have_the_defaults_of_newer_options},
+                       {"results are written as far as the struct reaches",
+                        results_are_written_as_far_as_the_struct_reaches},
+                       {"a struct of zeros is refused", a_struct_of_zeros_is_refused},
                        {"the version is that of the library", the_version_is_that_of_the_library}});
 }

@@ -11,15 +11,17 @@ the first that needs a library builds it and the others wait.
 
 from __future__ import annotations
 
+import ctypes
 import os
 import shutil
+import sys
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
 import pytest
 from filelock import FileLock
-from programs import OPTIONS, ROOT, build, output, tool, write_page
+from programs import KINDS, OPTIONS, ROOT, build, compiler, output, tool, write_page
 
 import curvewise
 
@@ -61,6 +63,30 @@ def prefix(built: Callable[[str], Path]) -> Callable[[str], Path]:
         source.stat().st_mtime for source in sources
     )
     return lambda kind: installed if kind == "static" and is_of_sources else built(kind) / "prefix"
+
+
+@pytest.fixture(scope="session", params=KINDS)
+def library(
+    request: pytest.FixtureRequest,
+    prefix: Callable[[str], Path],
+    tmp_path_factory: pytest.TempPathFactory,
+) -> ctypes.CDLL:
+    """Return the C interface, to be called by ctypes.
+
+    The static library exports no functions, so its interface is compiled into one that does.
+    """
+    place = prefix(request.param) / "lib"
+    shared = place / f"libcurvewise.{'dylib' if sys.platform == 'darwin' else 'so'}"
+    if request.param == "static":
+        shared = tmp_path_factory.mktemp("c_interface") / "interface.so"
+        sources = sorted((ROOT / "cpp/src/interface").glob("c_*.cpp"))
+        together = shared.with_suffix(".cpp")
+        together.write_text("".join(f'#include "interface/{one.name}"\n' for one in sources))
+        options = ["-std=c++17", "-shared", "-fPIC", "-DCURVEWISE_SHARED", "-DCURVEWISE_BUILDING"]
+        options += [f"-I{ROOT / 'cpp' / folder}" for folder in ("include", "src")]
+        archive = place / "libcurvewise.a"
+        output(compiler("c++", "g++"), *options, together, archive, "-pthread", "-o", shared)
+    return ctypes.CDLL(str(shared))
 
 
 def _build(kind: str, work: Path) -> Path:

@@ -1,20 +1,36 @@
 """The C interface, called from Python by ctypes: every option, and every error.
 
-The library is loaded next to the Python module, which contains a copy; both give the same bits. The
-static library exports no functions, so they are compiled into one that does.
+The library is loaded next to the Python module, which contains a copy; both give the same bits.
 """
 
 from __future__ import annotations
 
-import ctypes
 import math
 import sys
-from ctypes import POINTER, Structure, byref, c_char, c_double, c_int, c_ssize_t, c_void_p
+from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_ssize_t
 from typing import get_args
 
 import numpy as np
 import pytest
-from programs import KINDS, MARKS, ROOT, compiler, output, run
+from c_structs import (
+    FAILED,
+    INVALID_ARGUMENT,
+    MEASURES,
+    OK,
+    Area,
+    Batch,
+    Chaboche,
+    Curve,
+    CurveLength,
+    Dtw,
+    Error,
+    Frechet,
+    Pcm,
+    Yoshida,
+    curves,
+    view,
+)
+from programs import MARKS, run
 
 import curvewise
 from curvewise._options import CoordinateMetric, Spacing
@@ -22,71 +38,7 @@ from curvewise.materials import ChabocheVoce, YoshidaUemori
 
 pytestmark = MARKS
 
-OK, INVALID_ARGUMENT, NO_MEMORY, FAILED = range(4)
 METRICS = get_args(CoordinateMetric)
-MEASURES = ["area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous"]
-
-
-def structure(name: str, *fields: tuple[str, type]) -> type[Structure]:
-    return type(name, (Structure,), {"_fields_": list(fields)})
-
-
-Curve = structure(
-    "Curve", ("data", c_void_p), *((x, c_ssize_t) for x in ("n", "dim", "row_stride", "col_stride"))
-)
-Error = structure("Error", ("message", c_char * 256))
-Area = structure("Area", ("spacing", c_int), ("crossing", c_int), ("squared", c_int))
-Pcm = structure("Pcm", ("offsets", c_ssize_t), ("continuous", c_int))
-PRUNING = ("prune", c_int), ("cutoff", c_double)
-Frechet = structure(
-    "Frechet",
-    ("metric", c_int),
-    ("p", c_double),
-    ("workers", c_ssize_t),
-    *PRUNING,
-    ("radius", c_double),
-)
-Dtw = structure(
-    "Dtw",
-    ("metric", c_int),
-    ("p", c_double),
-    *((x, c_int) for x in ("step_pattern", "open_begin", "open_end")),
-    *((x, c_ssize_t) for x in ("window", "workers")),
-    *PRUNING,
-    ("window_fraction", c_double),
-    ("normalize", c_int),
-    ("penalty", c_double),
-    ("radius", c_double),
-    *((f"relax_{end}", c_ssize_t) for end in ("p_begin", "p_end", "q_begin", "q_end")),
-)
-CurveLength = structure("CurveLength", ("scale", c_int))
-Chaboche = structure("Chaboche", ("backstresses", c_int), ("modulus", c_int))
-Yoshida = structure("Yoshida", ("growth", c_int), ("modulus", c_int), ("rtol", c_double))
-Batch = structure("Batch", ("workers", c_ssize_t), ("cutoff", c_double))
-
-
-@pytest.fixture(scope="module", params=KINDS)
-def library(request, prefix, tmp_path_factory) -> ctypes.CDLL:
-    place = prefix(request.param) / "lib"
-    shared = place / f"libcurvewise.{'dylib' if sys.platform == 'darwin' else 'so'}"
-    if request.param == "static":
-        shared = tmp_path_factory.mktemp("c_interface") / "interface.so"
-        source = ROOT / "cpp/src/interface/c_interface.cpp"
-        options = ["-std=c++17", "-shared", "-fPIC", "-DCURVEWISE_SHARED", "-DCURVEWISE_BUILDING"]
-        options += [f"-I{ROOT / 'cpp' / folder}" for folder in ("include", "src")]
-        archive = place / "libcurvewise.a"
-        output(compiler("c++", "g++"), *options, source, archive, "-pthread", "-o", shared)
-    return ctypes.CDLL(str(shared))
-
-
-def view(points: np.ndarray) -> Structure:
-    """Return the curve that an array is, of whatever strides; the array must outlive it."""
-    strides = [stride // 8 for stride in points.strides]
-    return Curve(points.ctypes.data, *points.shape, *strides)
-
-
-def curves(*arrays: np.ndarray) -> ctypes.Array:
-    return (Curve * len(arrays))(*map(view, arrays))
 
 
 @pytest.fixture
@@ -379,7 +331,7 @@ def test_materials_refused(library) -> None:
 
 
 def test_version(library) -> None:
-    library.curvewise_version.restype = ctypes.c_char_p
+    library.curvewise_version.restype = c_char_p
     assert library.curvewise_version().decode() == curvewise.__version__
 
 

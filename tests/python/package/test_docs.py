@@ -269,7 +269,8 @@ def test_the_reference_has_c_and_fortran() -> None:
     c, fortran = (
         (DOCS / f"api/{name}.rst").read_text(encoding="utf-8") for name in ("c", "fortran")
     )
-    assert ".. doxygenfile:: curvewise.h\n" in c
+    headers = {header.name for header in HEADERS.glob("*.h")} - {"export.h"}
+    assert set(re.findall(r"^\.\. doxygenfile:: (\S+)$", c, flags=re.MULTILINE)) == headers
     assert ".. literalinclude:: ../../cpp/fortran/curvewise.f90" in fortran
 
 

@@ -1,7 +1,7 @@
 """The lists of measures in all layers are consistent.
 
 Names, choices, signatures and defaults are defined once in each layer: in curvewise._options for
-Python and the reference, next to the enumerators for C++, in curvewise.h for C, in curvewise.f90
+Python and the reference, next to the enumerators for C++, in c_options.h for C, in curvewise.f90
 for Fortran. A change of one without the others fails here.
 """
 
@@ -26,7 +26,7 @@ from curvewise.measures.edit_distances import EditDistance
 from curvewise.measures.registry import MEASURES, PRESETS, WARPINGS, MeasureName
 
 ROOT = next(folder for folder in Path(__file__).parents if (folder / "pyproject.toml").is_file())
-C_HEADER = ROOT / "cpp" / "include" / "curvewise" / "curvewise.h"
+C_HEADER = ROOT / "cpp" / "include" / "curvewise" / "c_options.h"
 FORTRAN = ROOT / "cpp" / "fortran" / "curvewise.f90"
 STUB = ROOT / "python" / "curvewise" / "_core.pyi"
 
@@ -90,6 +90,7 @@ def test_every_layer_has_the_same_measures_in_the_same_order() -> None:
     assert [name for one in get_args(MeasureName) for name in get_args(one)] == names
     assert curvewise.available_measures() == sorted(names)
     assert c_choices("measure", "") == names[: -len(OF_CPP_AND_PYTHON)]
+    assert c_choices("preset", "") == fortran_choices("preset_", list(PRESETS)) == list(PRESETS)
     assert fortran_choices("measure_", names[: -len(OF_CPP_AND_PYTHON)]) == c_choices("measure", "")
     assert tuple(names[-len(OF_CPP_AND_PYTHON) :]) == OF_CPP_AND_PYTHON
 
@@ -116,8 +117,9 @@ def test_every_layer_has_the_same_materials(kind: type[Material]) -> None:
     values = re.search(rf"CURVEWISE_{name.upper()}_DEFAULTS[\s\\]*{{(.*?)}}", text, re.DOTALL)
     assert struct
     assert values
-    assert re.findall(r"(\w+);", struct[1]) == list(defaults)
-    constants = [bare(value) for value in values[1].replace("\\\n", "").split(",")]
+    assert re.findall(r"(\w+);", struct[1]) == ["size", *defaults]
+    size, *constants = (bare(value) for value in values[1].replace("\\\n", "").split(","))
+    assert size == f"sizeof({name})"
     assert [value.replace("1e-9", "1e-09") for value in constants] == list(defaults.values())
     source = re.sub(r"!.*", "", FORTRAN.read_text(encoding="utf-8"))
     body = re.search(rf"public :: {name}\n(.*?)end type", source, re.DOTALL)
@@ -360,9 +362,11 @@ def c_defaults(measure: str) -> dict[str, str]:
     values = re.search(rf"CURVEWISE_{measure.upper()}_DEFAULTS[\s\\]*{{(.*?)}}", text, re.DOTALL)
     assert struct, measure
     assert values, measure
-    members = re.findall(r"(\w+);", struct[1])
+    size, control, *members = re.findall(r"(\w+);", struct[1])
+    assert (size, control) == ("size", "control")
     constants = [bare(value) for value in values[1].replace("\\\n", "").split(",")]
-    return dict(zip(members, constants, strict=True))
+    assert constants[:2] == [f"sizeof({measure}_options)", "null"]
+    return dict(zip(members, constants[2:], strict=True))
 
 
 def fortran_choices(prefix: str, expected: list[str]) -> list[str]:
@@ -382,7 +386,8 @@ def fortran_defaults(measure: str) -> dict[str, str]:
 
 def bare(constant: str) -> str:
     """Return a constant without what says whose it is."""
-    name = constant.strip().lower().removeprefix("curvewise_").removesuffix(".0")
+    name = constant.strip().lower().replace("curvewise_", "").removesuffix(".0")
+    name = {".true.": "1", ".false.": "0"}.get(name, name)
     name = name.replace("huge(1.0_c_double)", "huge_val").removesuffix(
         "_c_double"
     )  # Fortran need not have an infinity
