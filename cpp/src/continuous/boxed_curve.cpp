@@ -4,6 +4,17 @@ namespace curvewise::continuous {
 
 BoxedCurve::BoxedCurve(const CurveView& curve, const RangeScale& range, Poller& poller)
     : n_(std::max(curve.size(), std::ptrdiff_t{2})), dim_(curve.dim()) {
+    copy(curve, range, poller);
+    add_boxes(poller);
+}
+
+BoxedCurve::BoxedCurve(const double* points, const CurveView& curve, Poller& poller)
+    : n_(std::max(curve.size(), std::ptrdiff_t{2})), dim_(curve.dim()), data_(points) {
+    if (curve.size() < n_) copy(curve, RangeScale(1.0), poller);
+    add_boxes(poller);
+}
+
+void BoxedCurve::copy(const CurveView& curve, const RangeScale& range, Poller& poller) {
     points_.reserve(static_cast<std::size_t>(n_ * dim_));
     poller.in_runs(n_, dim_, [&](std::ptrdiff_t run_first, std::ptrdiff_t run_end) {
         for (std::ptrdiff_t i = run_first; i < run_end; ++i) {
@@ -13,6 +24,10 @@ BoxedCurve::BoxedCurve(const CurveView& curve, const RangeScale& range, Poller& 
             }
         }
     });
+    data_ = points_.data();
+}
+
+void BoxedCurve::add_boxes(Poller& poller) {
     add_leaves(poller);
     while (boxes(levels() - 1) > 1) add_level(poller);
 }

@@ -26,6 +26,15 @@ class BoxedCurve {
     static constexpr std::ptrdiff_t leaf = 8;
 
     BoxedCurve(const CurveView& curve, const RangeScale& range, Poller& poller);
+    // Refers to the points of a curve, which are row-major and must outlive this, unless there is
+    // only one.
+    BoxedCurve(const double* points, const CurveView& curve, Poller& poller);
+
+    BoxedCurve(const BoxedCurve&) = delete;
+    BoxedCurve(BoxedCurve&&) noexcept = default;
+    BoxedCurve& operator=(const BoxedCurve&) = delete;
+    BoxedCurve& operator=(BoxedCurve&&) = delete;
+    ~BoxedCurve() = default;
 
     // Points, at least two.
     std::ptrdiff_t size() const noexcept { return n_; }
@@ -33,7 +42,7 @@ class BoxedCurve {
 
     template <int Dim>
     const double* point(std::ptrdiff_t i) const noexcept {
-        return points_.data() + i * (Dim > 0 ? Dim : dim_);
+        return data_ + i * (Dim > 0 ? Dim : dim_);
     }
     int levels() const noexcept { return static_cast<int>(levels_.size()); }
     // The box around the edges from leaf 2^level b on: its least corner, then its greatest.
@@ -49,6 +58,8 @@ class BoxedCurve {
    private:
     using Boxes = std::vector<double>;
 
+    void copy(const CurveView& curve, const RangeScale& range, Poller& poller);
+    void add_boxes(Poller& poller);
     void add_leaves(Poller& poller);
     void add_level(Poller& poller);
     // Adds a box around a point.
@@ -58,7 +69,8 @@ class BoxedCurve {
 
     std::ptrdiff_t n_;
     std::ptrdiff_t dim_;
-    std::vector<double> points_;
+    std::vector<double> points_;  // none where these are another's
+    const double* data_;
     std::vector<Boxes> levels_;
 };
 

@@ -55,6 +55,10 @@ struct CheckedCurve {
         if (is_geo) put_on_sphere();
     }
 
+    // One that was checked before.
+    CheckedCurve(const CurveView& view, double its_largest, bool is_on_sphere) noexcept
+        : curve(view), largest(its_largest), on_sphere(is_on_sphere) {}
+
     CurveView curve;
     std::string name;
     double largest;

@@ -165,7 +165,7 @@ class Index::State {
         std::int64_t total = 0;
         for (const CurveView& curve : curves) total += curve.size();
         poller.begin(total);
-        added->reserve(curves);
+        added->reserve(curves, true);
         for (std::size_t i = 0; i < curves.size(); ++i) {
             const std::string name = CurveList(curves, "curves").name_of(i);
             const CurveInDoubles curve(curves[i], poller);
@@ -229,7 +229,7 @@ class Index::State {
         if (view.seen.size == 0) {
             check_shapes(measure_->requirements(), list);
         } else {
-            const CurveView& first = targets_->curve(0).curve;
+            const CurveView first = targets_->curve(0).curve;
             const std::string name = "curve " + std::to_string(indices_[0]) + " of the index";
             check_shapes(measure_->requirements(), {first, name.c_str()}, list);
         }

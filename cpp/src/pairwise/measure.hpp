@@ -21,11 +21,14 @@
 //                                        curves of `points` points in all
 //   (prepared_p, prepared_q, call)       the value
 //
-// PreparedQ may hold the points of its curve in another form, so that its owner need not keep them,
-// too. Then it has
+// An owner of many Qs stores their points itself (stored_curve.hpp). A PreparedQ may
 //
-//     holds_points()                     whether this one does
-//     look_at_own_points()               makes `checked` refer to these
+//   PreparedQ::layout                  name the layout in which it reads stored points, otherwise
+//                                      row by row
+//   (stored, dim)                      be made of stored points in little time, and refer to them:
+//                                      it is then made whenever it is needed, unless it is on the
+//                                      sphere
+//   (checked, poller, PointsStay())    be kept, and refer to the points instead of holding a copy
 //
 // The measure may have bounds, for searches that test a bound before they compute a value
 // (targets.hpp):
@@ -63,6 +66,7 @@
 #include <utility>
 
 #include "curves/checks.hpp"
+#include "pairwise/stored_curve.hpp"
 #include "runtime/poller.hpp"
 
 namespace curvewise::pairwise {
@@ -119,9 +123,14 @@ class SweptMeasure : public Distance {
     }
 };
 
+// For sides that may refer to the points of their curve, because these outlive them.
+struct PointsStay {};
+
 // A side of a measure that prepares nothing.
 struct UnpreparedCurve {
     UnpreparedCurve(CheckedCurve curve, Poller& /*poller*/) : checked(std::move(curve)) {}
+    UnpreparedCurve(const StoredCurve& stored, std::ptrdiff_t dim) noexcept
+        : checked(stored.view(dim, PointLayout::rows), stored.largest, false) {}
     CheckedCurve checked;
 };
 

@@ -10,6 +10,7 @@
 
 #include "curves/checks.hpp"
 #include "pairwise/pair_run.hpp"
+#include "pairwise/stored_curve.hpp"
 
 namespace curvewise::pairwise {
 
@@ -65,10 +66,16 @@ class Targets {
     Targets& operator=(Targets&&) = delete;
     virtual ~Targets() = default;
 
-    // Prepares for these curves.
-    virtual void reserve(const std::vector<CurveView>& curves) = 0;
+    // Prepares for all curves that will be added here, whose points are copied or stay where they
+    // are.
+    virtual void reserve(const std::vector<CurveView>& curves, bool are_copied) = 0;
     // Keeps a copy of the points. Throws where the curve serves no P.
     virtual void add(const CheckedCurve& Q, Poller& poller) = 0;
+    // The same without a copy: the points are in layout(), with PointBlocks::padding finite numbers
+    // behind, in memory that is held.
+    virtual void look_at(const CheckedCurve& Q, const double* points, Poller& poller) = 0;
+    virtual void hold(std::shared_ptr<const void> points) = 0;
+    virtual PointLayout layout() const noexcept = 0;
     // Adds those of `others`, of the same measure, for which room was made, and leaves it empty.
     virtual void make_room(const Targets& others) = 0;
     virtual void take(Targets& others) noexcept = 0;
@@ -76,8 +83,8 @@ class Targets {
     // it.
     virtual Seen seen() const noexcept = 0;
 
-    // As it was added, with the points that are kept.
-    virtual const CheckedCurve& curve(std::ptrdiff_t j) const noexcept = 0;
+    // As it was added, without its name, with the points that are kept.
+    virtual CheckedCurve curve(std::ptrdiff_t j) const = 0;
     // Throws where P serves no Q, as query() does.
     virtual void check(const CheckedCurve& P, Poller& poller) const = 0;
     virtual std::unique_ptr<TargetQuery> query(const CheckedCurve& P, const Seen& seen,

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "curves/owned_curve.hpp"
 #include "pairwise/measure.hpp"
+#include "pairwise/stored_curve.hpp"
 #include "pairwise/targets.hpp"
 #include "runtime/growing_list.hpp"
 
@@ -60,46 +61,78 @@ struct BoundsOf<M, std::void_t<typename M::Bounds>> {
     using type = typename M::Bounds;
 };
 
-template <class PreparedQ, class = void>
-inline constexpr bool may_hold_points = false;
+// Whether a PreparedQ only refers to stored points, and is made when it is needed. On the sphere,
+// none does.
 template <class PreparedQ>
-inline constexpr bool
-    may_hold_points<PreparedQ, std::void_t<decltype(&PreparedQ::look_at_own_points)>> = true;
+inline constexpr bool is_view =
+    std::is_constructible_v<PreparedQ, const StoredCurve&, std::ptrdiff_t>;
+
+template <class PreparedQ, class = void>
+inline constexpr PointLayout layout_of = PointLayout::rows;
+template <class PreparedQ>
+inline constexpr PointLayout layout_of<PreparedQ, std::void_t<decltype(PreparedQ::layout)>> =
+    PreparedQ::layout;
 
 template <class M>
 class TargetsOf final : public Targets {
    public:
-    explicit TargetsOf(const M& measure) : measure_(measure) {}
+    explicit TargetsOf(const M& measure)
+        : measure_(measure), on_sphere_(measure.requirements().on_sphere) {}
 
-    void reserve(const std::vector<CurveView>& curves) override {
+    void reserve(const std::vector<CurveView>& curves, bool are_copied) override {
         curves_.make_room(static_cast<std::ptrdiff_t>(curves.size()));
+        if (!are_views()) prepared_.make_room(static_cast<std::ptrdiff_t>(curves.size()));
         bounds_.reserve(measure_, curves);
+        if (!curves.empty()) dim_ = curves[0].dim();
+        if (!are_copied || curves.empty()) return;
+        std::ptrdiff_t numbers = 0;
+        for (const CurveView& curve : curves) numbers += curve.size() * dim_;
+        blocks_.reserve(numbers);
     }
     void add(const CheckedCurve& Q, Poller& poller) override {
-        PreparedQ curve = kept(Q, poller);
-        bounds_.keep(curve);
-        curves_.push_back(std::move(curve));
-        points_ += Q.curve.size();
+        double* const points = blocks_.append(Q.curve.size() * dim_);
+        write_points(Q.curve, layout(), points, poller);
+        look_at(Q, points, poller);
+    }
+    void look_at(const CheckedCurve& Q, const double* points, Poller& poller) override {
+        const std::ptrdiff_t size = Q.curve.size();
+        const StoredCurve stored{points, Q.largest, size, Q.curve.is_flat(),
+                                 squares_are_in_domain(points, size * dim_)};
+        if (!are_views()) {
+            PreparedQ prepared = with_stored(Q, stored, poller);
+            bounds_.keep(prepared);
+            prepared.checked.name = std::string();
+            prepared_.push_back(std::move(prepared));
+        } else if constexpr (is_view<PreparedQ>) {
+            bounds_.keep(PreparedQ(stored, dim_));
+        }
+        curves_.push_back(stored);
+        points_ += size;
+    }
+    void hold(std::shared_ptr<const void> points) override { blocks_.hold(std::move(points)); }
+    PointLayout layout() const noexcept override {
+        return on_sphere_ ? PointLayout::rows : layout_of<PreparedQ>;
     }
     void make_room(const Targets& targets) override {
         const auto& others = static_cast<const TargetsOf&>(targets);
         curves_.make_room(others.curves_);
-        owned_.make_room(others.owned_);
+        prepared_.make_room(others.prepared_);
+        blocks_.make_room(others.blocks_);
         bounds_.make_room(others.bounds_);
     }
     void take(Targets& targets) noexcept override {
         auto& others = static_cast<TargetsOf&>(targets);
+        if (curves_.size() == 0) dim_ = others.dim_;
         curves_.take(others.curves_);
-        owned_.take(others.owned_);
+        prepared_.take(others.prepared_);
+        blocks_.take(others.blocks_);
         bounds_.take(others.bounds_);
         points_ += std::exchange(others.points_, 0);
     }
     Seen seen() const noexcept override {
         return {curves_.size(), curves_.size(), points_, nullptr};
     }
-    const CheckedCurve& curve(std::ptrdiff_t j) const noexcept override {
-        return curves_[j].checked;
-    }
+    CheckedCurve curve(std::ptrdiff_t j) const override { return checked(curves_[j]); }
     void check(const CheckedCurve& P, Poller& poller) const override {
         measure_.check_p(typename M::PreparedP(P, poller), poller);
     }
@@ -133,25 +166,25 @@ class TargetsOf final : public Targets {
         int levels() const noexcept override { return Bounds::levels; }
         void quick(double* bounds) override { bounds_.quick(bounds, count_); }
         double refined(std::ptrdiff_t j, int level) override {
-            return bounds_.refined(j, target(j), level);
+            return targets_.with_target(
+                j, [&](const PreparedQ& Q) { return bounds_.refined(j, Q, level); });
         }
         double value(std::ptrdiff_t j, const PairCall& call) override {
-            return bounds_.value(j, target(j), own(call));
+            return targets_.with_target(
+                j, [&](const PreparedQ& Q) { return bounds_.value(j, Q, own(call)); });
         }
         bool is_within(std::ptrdiff_t j, const PairCall& call) override {
-            return bounds_.is_within(j, target(j), own(call));
+            return targets_.with_target(
+                j, [&](const PreparedQ& Q) { return bounds_.is_within(j, Q, own(call)); });
         }
         std::int64_t steps(std::ptrdiff_t j) const noexcept override {
-            return M::steps(P_.checked.curve.size(), 1, target(j).checked.curve.size());
+            return M::steps(P_.checked.curve.size(), 1, targets_.curves_[j].size);
         }
 
        private:
         static Call<typename M::Memory> own(const PairCall& call) noexcept {
             typename M::Memory& memory = static_cast<OwnMemory&>(call.memory).content;
             return {call.cutoff, call.workers, call.poller, memory};
-        }
-        const typename M::PreparedQ& target(std::ptrdiff_t j) const noexcept {
-            return targets_.curves_[j];
         }
 
         const TargetsOf& targets_;
@@ -160,25 +193,35 @@ class TargetsOf final : public Targets {
         typename Bounds::Query bounds_;
     };
 
-    // With stored points: points that PreparedQ holds itself, or a separate copy.
-    PreparedQ kept(const CheckedCurve& Q, Poller& poller) {
-        if constexpr (may_hold_points<PreparedQ>) {
-            PreparedQ prepared(Q, poller);
-            if (prepared.holds_points()) {
-                prepared.look_at_own_points();
-                return prepared;
-            }
+    bool are_views() const noexcept { return is_view<PreparedQ> && !on_sphere_; }
+    CheckedCurve checked(const StoredCurve& stored) const {
+        return {stored.view(dim_, layout()), stored.largest, on_sphere_};
+    }
+    // One that is kept, and may refer to the points.
+    PreparedQ with_stored(const CheckedCurve& Q, const StoredCurve& stored, Poller& poller) const {
+        CheckedCurve here = Q;
+        here.curve = stored.view(dim_, layout());
+        if constexpr (std::is_constructible_v<PreparedQ, CheckedCurve, Poller&, PointsStay>) {
+            return {here, poller, PointsStay()};
+        } else {
+            return {here, poller};
         }
-        curves::OwnedCurve points(Q.curve, poller);
-        CheckedCurve copy = Q;
-        copy.curve = points.view();
-        owned_.push_back(std::move(points));
-        return PreparedQ(copy, poller);
+    }
+    // Calls use(target j, prepared).
+    template <class Use>
+    auto with_target(std::ptrdiff_t j, Use use) const {
+        if constexpr (is_view<PreparedQ>) {
+            if (!on_sphere_) return use(PreparedQ(curves_[j], dim_));
+        }
+        return use(prepared_[j]);
     }
 
     const M& measure_;
-    runtime::GrowingList<PreparedQ> curves_;
-    runtime::GrowingList<curves::OwnedCurve> owned_;  // whose points the curves refer to
+    bool on_sphere_;
+    std::ptrdiff_t dim_ = 0;
+    runtime::GrowingList<StoredCurve> curves_;
+    runtime::GrowingList<PreparedQ> prepared_;  // none where they are views
+    PointBlocks blocks_;
     Bounds bounds_;
     std::int64_t points_ = 0;
 };

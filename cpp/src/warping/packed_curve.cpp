@@ -36,7 +36,8 @@ PackedCurve::PackedCurve(const CurveView& curve, const RangeScale& range, PointO
     : n_(curve.size()),
       dim_(curve.dim()),
       stride_(AlignedBuffer::rounded(n_ + kernels::padding)),
-      storage_(dim_ * stride_) {
+      storage_(dim_ * stride_),
+      data_(storage_.data()) {
     const double* const row_major = range.is_identity() ? curve.row_major() : nullptr;
     const std::ptrdiff_t step = order == PointOrder::reversed ? -1 : 1;
     std::uint64_t least = rank(0.0);
@@ -61,7 +62,8 @@ PackedCurve::PackedCurve(const CurveView& curve, PointOrder order, Poller& polle
     : n_(curve.size()),
       dim_(curves::sphere_dim),
       stride_(AlignedBuffer::rounded(n_ + kernels::padding)),
-      storage_(dim_ * stride_) {
+      storage_(dim_ * stride_),
+      data_(storage_.data()) {
     std::uint64_t least = rank(0.0);
     poller.in_runs(n_, dim_, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
         for (std::ptrdiff_t i = first; i < end; ++i) {

@@ -1,11 +1,13 @@
 // A curve as the kernels read it: one array per coordinate, padded to whole SIMD vectors, scaled
-// into the safe range; rows of a table in order, columns in reverse. One allocation; O(n).
+// into the safe range; rows of a table in order, columns in reverse. One allocation; O(n). Stored
+// points in this order are used where they are.
 #pragma once
 
 #include <cstddef>
 
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
+#include "pairwise/stored_curve.hpp"
 #include "runtime/aligned_buffer.hpp"
 #include "runtime/poller.hpp"
 
@@ -27,21 +29,21 @@ class PackedCurve {
         return PackedCurve(curve, range, order, poller);
     }
 
+    // Of stored points that need no scaling.
+    PackedCurve(const pairwise::StoredCurve& stored, std::ptrdiff_t dim) noexcept
+        : n_(stored.size),
+          dim_(dim),
+          stride_(stored.size),
+          data_(stored.points),
+          squares_are_in_domain_(stored.squares_are_in_domain) {}
+
     std::ptrdiff_t size() const noexcept { return n_; }
     std::ptrdiff_t dim() const noexcept { return dim_; }
 
     // Coordinate c of point i is data()[c * stride() + i]; in reverse order, at
     // [c * stride() + size() - 1 - i].
-    const double* data() const noexcept { return storage_.data(); }
+    const double* data() const noexcept { return data_; }
     std::ptrdiff_t stride() const noexcept { return stride_; }
-    // The points of one packed in this order, neither scaled nor on the sphere; flat where `like`
-    // is.
-    CurveView points(PointOrder order, const CurveView& like) const noexcept {
-        const bool is_reversed = order == PointOrder::reversed;
-        return {data() + (is_reversed ? n_ - 1 : 0), n_, dim_, is_reversed ? -1 : 1,
-                like.is_flat() ? 0 : stride_};
-    }
-
     // Whether every |coordinate| is 0 or at least 2^-400. Differences of two such curves are then 0
     // or at least 2^-452, the last bit of such a coordinate. Their squares are 0 or at least
     // 2^-904, the domain of the fast square root.
@@ -54,6 +56,7 @@ class PackedCurve {
     std::ptrdiff_t dim_;
     std::ptrdiff_t stride_;
     AlignedBuffer storage_;
+    const double* data_;
     bool squares_are_in_domain_ = true;
 };
 

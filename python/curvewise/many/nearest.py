@@ -82,9 +82,9 @@ class Index:
     "Optimal multi-step k-nearest neighbor search", 1998, and Keogh & Ratanamahatana (2005). The
     index computes few distances if the curves form groups, and all if they are equally distant.
     Lower bounds exist for dtw, frechet and frechet_continuous. The other measures, and dtw and
-    frechet with "minkowski", compute every pair. Memory: at most 1.5 times that of the points in
-    float64 for curves of at least 128 numbers, and little more than once for at least 1,000. It is
-    about twice for frechet_continuous, and three times for "haversine".
+    frechet with "minkowski", compute every pair. Memory: at most 1.6 times that of the points in
+    float64 for curves of at least 32 numbers, and 1.3 times for at least 128. It is about twice for
+    frechet_continuous, and three times for "haversine".
 
     Examples
     --------

@@ -68,10 +68,10 @@ void index_is_little_more_than_its_points() {
         Measure measure;
         double ratio;
     };
-    const Limit limits[] = {{"dtw", DtwOptions{}, 1.5},
-                            {"frechet", FrechetOptions{}, 1.5},
-                            {"hausdorff", HausdorffOptions{}, 1.5},
-                            {"area", AreaOptions{}, 1.25},
+    const Limit limits[] = {{"dtw", DtwOptions{}, 1.3},
+                            {"frechet", FrechetOptions{}, 1.3},
+                            {"hausdorff", HausdorffOptions{}, 1.1},
+                            {"area", AreaOptions{}, 1.1},
                             {"frechet_continuous", FrechetContinuousOptions{}, 2.1}};
     for (const Limit& limit : limits) {
         for (const Collection& size :
@@ -86,9 +86,30 @@ void index_is_little_more_than_its_points() {
     }
 }
 
+// What is kept besides the points weighs most there.
+void index_of_short_curves_is_not_much_more() {
+    struct Limit {
+        Collection size;
+        double of_bounds, of_none;
+    };
+    const Limit limits[] = {{{10000, 16, 1}, 1.9, 1.3},
+                            {{10000, 32, 1}, 1.6, 1.2},
+                            {{10000, 16, 2}, 1.6, 1.2},
+                            {{10000, 64, 1}, 1.4, 1.1},
+                            {{10000, 32, 2}, 1.4, 1.1}};
+    for (const Limit& limit : limits) {
+        const check::Note note(std::to_string(limit.size.points) + " points in " +
+                               std::to_string(limit.size.dim) + "-D");
+        CHECK(memory_of(DtwOptions{}, limit.size) <= limit.of_bounds);
+        CHECK(memory_of(FrechetOptions{}, limit.size) <= limit.of_bounds);
+        CHECK(memory_of(HausdorffOptions{}, limit.size) <= limit.of_none);
+    }
+}
+
 }  // namespace
 
 int main() {
     return check::run(
-        {{"an index is little more than its points", index_is_little_more_than_its_points}});
+        {{"an index is little more than its points", index_is_little_more_than_its_points},
+         {"an index of short curves is not much more", index_of_short_curves_is_not_much_more}});
 }

@@ -49,6 +49,7 @@ void bounds_hold(const Options& options, const std::vector<Curve>& curves) {
     const bool on_sphere = measure->requirements().on_sphere;
     const auto targets = measure->make_targets();
     Poller poller(nullptr);
+    targets->reserve(test::views_of(curves), true);
     for (const Curve& Q : curves) {
         targets->add(CheckedCurve(Q, "Q", poller, on_sphere), poller);
     }
