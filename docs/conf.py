@@ -78,7 +78,10 @@ extensions = [
 exclude_patterns = ["_build", "_doxygen", "gallery/*.py", "gallery/*.ipynb", "gallery/*.zip"]
 templates_path = ["_templates"]
 nitpicky = True
-nitpick_ignore = [("c:identifier", "ptrdiff_t"), ("std:ref", "curvewise_8h")]
+nitpick_ignore = [
+    *(("c:identifier", name) for name in ("int64_t", "ptrdiff_t", "size_t")),
+    ("std:ref", "curvewise_8h"),
+]
 nitpick_ignore_regex = [
     (
         "cpp:identifier",
@@ -90,7 +93,7 @@ nitpick_ignore_regex = [
 myst_enable_extensions = ["colon_fence", "dollarmath", "attrs_block"]
 myst_heading_anchors = 4
 repository_folders = {
-    "cpp/examples": "docs/api/cpp_examples.rst",
+    "cpp/examples": "docs/embedding/programs.md",
     "examples/studies": "docs/reference/study_examples.rst",
     "benchmarks": "docs/project/benchmarks.md",
     "benchmarks/reproduction": "docs/project/paper/index.md",

@@ -21,7 +21,18 @@ from pathlib import Path
 
 import pytest
 from filelock import FileLock
-from programs import KINDS, OPTIONS, ROOT, build, compiler, output, tool, write_page
+from programs import (
+    KINDS,
+    OPTIONS,
+    ROOT,
+    WARNINGS,
+    build,
+    compiler,
+    eigen,
+    output,
+    tool,
+    write_page,
+)
 
 import curvewise
 
@@ -87,6 +98,25 @@ def library(
         archive = place / "libcurvewise.a"
         output(compiler("c++", "g++"), *options, together, archive, "-pthread", "-o", shared)
     return ctypes.CDLL(str(shared))
+
+
+@pytest.fixture(scope="session", params=KINDS)
+def examples(
+    request: pytest.FixtureRequest,
+    prefix: Callable[[str], Path],
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Path:
+    """Return the folder of the examples, built by CMake with a library that has been moved."""
+    folder = tmp_path_factory.mktemp("examples")
+    options = [
+        f"-DCMAKE_PREFIX_PATH={prefix(request.param)}",
+        f"-DEigen3_DIR={eigen() / 'share/eigen3/cmake'}",
+        "-DCMAKE_C_FLAGS=" + " ".join(WARNINGS),
+        "-DCMAKE_CXX_FLAGS=" + " ".join(WARNINGS),
+        "-DCMAKE_Fortran_FLAGS=-std=f2018 -Wall -Wextra -pedantic -Werror",
+    ]
+    build(ROOT / "cpp" / "examples", folder, *options)
+    return folder
 
 
 def _build(kind: str, work: Path) -> Path:

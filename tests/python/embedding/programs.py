@@ -11,6 +11,7 @@ import sys
 import sysconfig
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -120,3 +121,11 @@ def pkg_config(prefix: Path, *arguments: str) -> list[str]:
 def library_path(prefix: Path) -> dict[str, str]:
     """Return how a program finds a shared library that is not where the system looks."""
     return {"LD_LIBRARY_PATH": str(prefix / "lib"), "DYLD_LIBRARY_PATH": str(prefix / "lib")}
+
+
+def loop(n: int, height: float) -> np.ndarray:
+    """Return the loop of the examples, whose arithmetic is exact where n - 1 is a power of two."""
+    t = 4.0 * np.arange(n) / (n - 1)
+    u = np.where(t < 2.0, t - 1.0, 3.0 - t)
+    bow = height * (1.0 - u * u)
+    return np.column_stack([u, np.where(t < 2.0, u + bow, u - bow)])

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import sys
-from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_ssize_t
+from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int, c_ssize_t
 from typing import get_args
 
 import numpy as np
@@ -28,6 +28,7 @@ from c_structs import (
     Pcm,
     Yoshida,
     curves,
+    doubles,
     view,
 )
 from programs import MARKS, run
@@ -303,6 +304,38 @@ def test_materials(options, material, constants, library) -> None:
     np.testing.assert_array_equal(
         driven(library, material, options, constants, strain)[2], expected
     )
+
+
+@pytest.mark.parametrize(("options", "material", "constants"), MATERIALS)
+def test_response_to_stresses(options, material, constants, library) -> None:
+    kind = "chaboche_voce" if isinstance(material, ChabocheVoce) else "yoshida_uemori"
+    named = dict(zip(material.names, constants, strict=True))
+    parameters, count = np.array(constants), c_ssize_t(len(constants))
+    respond, error = getattr(library, f"curvewise_{kind}_response"), Error()
+    for by_stress in ([1, 0, 7, 0], None):
+        given = np.array([350.0, 0.02, -300.0, -0.01] if by_stress else [350.0, 400.0, -350.0, 0.0])
+        flags = None if by_stress is None else (c_int * 4)(*by_stress)
+        answer, slopes = np.full(4, math.nan), np.full((4, len(constants)), math.nan)
+        for place in (None, doubles(slopes)):
+            status = respond(
+                options and byref(options),
+                doubles(parameters),
+                count,
+                doubles(given),
+                flags,
+                c_ssize_t(4),
+                doubles(answer),
+                place,
+                byref(error),
+            )
+            assert status == OK, error.message
+        expected = material.response_and_slopes(
+            given, True if by_stress is None else np.array(by_stress) != 0, named
+        )
+        np.testing.assert_array_equal(answer, expected[0])
+        np.testing.assert_array_equal(slopes, expected[1])
+    none = respond(None, doubles(parameters), count, None, None, c_ssize_t(-1), None, None, None)
+    assert none == INVALID_ARGUMENT
 
 
 def test_materials_refused(library) -> None:

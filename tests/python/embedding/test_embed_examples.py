@@ -12,18 +12,17 @@ import re
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 from programs import (
-    KINDS,
     MARKS,
     ROOT,
     WARNINGS,
     build,
     compiler,
     eigen,
+    loop,
     numbers,
     output,
     pkg_config,
@@ -38,29 +37,7 @@ pytestmark = MARKS
 EXAMPLES = ROOT / "cpp" / "examples"
 
 
-def loop(n: int, height: float) -> np.ndarray:
-    """Return the loop of the examples, whose arithmetic is exact where n - 1 is a power of two."""
-    t = 4.0 * np.arange(n) / (n - 1)
-    u = np.where(t < 2.0, t - 1.0, 3.0 - t)
-    bow = height * (1.0 - u * u)
-    return np.column_stack([u, np.where(t < 2.0, u + bow, u - bow)])
-
-
 P, Q = loop(129, 0.5), loop(65, 0.375)
-
-
-@pytest.fixture(scope="module", params=KINDS)
-def examples(request: pytest.FixtureRequest, prefix, tmp_path_factory) -> Path:
-    """Return the folder of the examples, built by CMake with a library that has been moved."""
-    folder = tmp_path_factory.mktemp("examples")
-    options = [
-        f"-DCMAKE_PREFIX_PATH={prefix(request.param)}",
-        f"-DEigen3_DIR={eigen() / 'share/eigen3/cmake'}",
-        "-DCMAKE_C_FLAGS=" + " ".join(WARNINGS),
-        "-DCMAKE_CXX_FLAGS=" + " ".join(WARNINGS),
-    ]
-    build(EXAMPLES, folder, *options)
-    return folder
 
 
 def test_quickstart(examples) -> None:
