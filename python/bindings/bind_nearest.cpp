@@ -5,6 +5,9 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -32,6 +35,21 @@ py::tuple counts_of(const SearchRecord& record) {
     return py::make_tuple(record.pairs, record.refined, record.computed);
 }
 
+// Calls function(). Errors of the system become OSError, and files that are no index ValueError.
+template <class Function>
+auto with_file_errors(Function function) {
+    try {
+        return function();
+    } catch (const Stopped&) {
+        throw;
+    } catch (const std::system_error& error) {
+        PyErr_SetObject(PyExc_OSError, py::make_tuple(error.code().value(), error.what()).ptr());
+        throw py::error_already_set();
+    } catch (const std::runtime_error& error) {
+        throw py::value_error(error.what());
+    }
+}
+
 class BoundIndex {
    public:
     BoundIndex(const py::list& curves, const py::object& name, const py::dict& options)
@@ -52,6 +70,24 @@ class BoundIndex {
         interruptible(reading(added), py::none(),
                       [&](Control* control) { index_.add(added.views, control); });
         note_longest(added);
+    }
+    BoundIndex(const IndexFile& file, const py::object& name, const py::dict& options)
+        : measure_(read_measure(name, options)), index_(with_file_errors([&] {
+              return interruptible(steps_worth_watching, py::none(), [&](Control* control) {
+                  return Index::open(file, measure_, control);
+              });
+          })) {
+        for (const CurveView& curve : index_.curves()) {
+            longest_ = std::max(longest_.load(), static_cast<double>(curve.size()));
+            dim_ = static_cast<double>(curve.dim());
+        }
+    }
+
+    void save(const std::string& path, const std::string& note) const {
+        with_file_errors([&] {
+            interruptible(steps_worth_watching, py::none(),
+                          [&](Control* control) { index_.save(path, note, control); });
+        });
     }
     void remove(const std::vector<std::int64_t>& indices) { index_.remove(indices); }
     std::size_t size() const { return index_.size(); }
@@ -234,11 +270,18 @@ py::tuple found_mean(const py::list& list, const std::vector<double>& weights,
 }  // namespace
 
 void bind_nearest(py::module_& module) {
+    py::class_<IndexFile>(module, "IndexFile")
+        .def(py::init([](const std::string& path) {
+            return with_file_errors([&] { return IndexFile(path); });
+        }))
+        .def("note", [](const IndexFile& file) { return py::bytes(file.note()); });
     py::class_<BoundIndex>(module, "Index")
         .def(py::init<const py::list&, const py::object&, const py::dict&>())
         .def(py::init<const py::list&, const std::vector<std::int64_t>&, std::int64_t,
                       const py::object&, const py::dict&>())
+        .def(py::init<const IndexFile&, const py::object&, const py::dict&>())
         .def("add", &BoundIndex::add)
+        .def("save", &BoundIndex::save)
         .def("remove", &BoundIndex::remove)
         .def("size", &BoundIndex::size)
         .def("next_index", &BoundIndex::next_index)

@@ -87,6 +87,8 @@ names: list[str] = curvewise.available_measures()
 index = curvewise.Index([P, Q], "dtw", window=3)
 index.add([P])
 index.remove([2])
+index.save("index")
+index = curvewise.Index.open(Path("index"))
 places: npt.NDArray[np.int64] = index.indices
 distances, places = index.kneighbors([P], 2, workers=2, progress=print)
 places = index.kneighbors(n_neighbors=np.int64(1), return_distance=False)

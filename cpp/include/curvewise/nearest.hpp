@@ -26,6 +26,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "curvewise/control.hpp"
@@ -34,6 +35,10 @@
 #include "curvewise/measure.hpp"
 
 namespace curvewise {
+
+namespace nearest {
+struct OpenedIndex;
+}
 
 /// A curve of the index, and how far it is.
 struct Neighbor {
@@ -63,6 +68,21 @@ struct SearchOptions {
     std::vector<std::int64_t>* rows = nullptr;
 };
 
+/// A file that Index::save() has written. Names of files are in UTF-8 on Windows, and as the system
+/// has them elsewhere.
+class IndexFile {
+   public:
+    /// Throws std::system_error if the file cannot be opened, and std::runtime_error if it is not
+    /// an index, is damaged, or has another format or byte order. Does not read the points.
+    CURVEWISE_EXPORT explicit IndexFile(const std::string& path);
+    /// The bytes that save() was given.
+    CURVEWISE_EXPORT const std::string& note() const noexcept;
+
+   private:
+    friend class Index;
+    std::shared_ptr<const nearest::OpenedIndex> opened_;
+};
+
 /// Curves to search for the nearest of other curves. Curves are numbered in the order in which they
 /// are added. This number, their index, never changes, and is not used again after remove().
 class Index {
@@ -90,6 +110,21 @@ class Index {
     /// index of no curve, of one that was removed, or given twice, and std::logic_error as add().
     /// Later calls do not see the curves. The curves keep their memory.
     CURVEWISE_EXPORT void remove(const std::vector<std::int64_t>& indices);
+    /// Writes the curves, without those removed, with their indices, and `note`. The file replaces
+    /// another of this name at the end, also one that an index is open on. Throws std::system_error
+    /// and Stopped; an older file then stays as it is.
+    CURVEWISE_EXPORT void save(const std::string& path, const std::string& note = {},
+                               Control* control = nullptr) const;
+    /// The index of a file, which is mapped into memory: processes that open it share the points.
+    /// The file must not be changed while it is open; save() replaces it. Reads all points once,
+    /// and throws as IndexFile does, also for damaged points, and as the constructor does. The file
+    /// has the points as the measure of the index that was saved reads them, which are three
+    /// layouts. Under a measure of another layout, the index has a copy.
+    [[nodiscard]] CURVEWISE_EXPORT static Index open(const std::string& path,
+                                                     const Measure& measure,
+                                                     Control* control = nullptr);
+    [[nodiscard]] CURVEWISE_EXPORT static Index open(const IndexFile& file, const Measure& measure,
+                                                     Control* control = nullptr);
     /// The number of curves, without those removed.
     CURVEWISE_EXPORT std::size_t size() const;
     /// Copies of the points, without those removed: valid as long as the index.
@@ -129,6 +164,8 @@ class Index {
 
    private:
     class State;
+    struct TakenState {};
+    Index(TakenState tag, std::unique_ptr<State> state) noexcept;
     State& state() const;
     std::unique_ptr<State> state_;  // null where moved from
 };

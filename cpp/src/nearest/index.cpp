@@ -14,6 +14,7 @@
 #include "curves/owned_curve.hpp"
 #include "curvewise/nearest.hpp"
 #include "nearest/callers.hpp"
+#include "nearest/index_file.hpp"
 #include "nearest/index_view.hpp"
 #include "nearest/query_run.hpp"
 #include "pairwise/batch.hpp"
@@ -30,8 +31,10 @@ using nearest::Caller;
 using nearest::Callers;
 using nearest::IndexView;
 using nearest::NeighborSearch;
+using nearest::OpenedIndex;
 using nearest::Queries;
 using nearest::QueryRun;
+using nearest::SavedCurve;
 using nearest::SizeCounts;
 using nearest::TargetIndices;
 using pairwise::Seen;
@@ -50,12 +53,13 @@ class Index::State {
                               measure)),
           targets_(measure_->make_targets()) {}
 
-    void add(const std::vector<CurveView>& curves, Control* control) {
+    // Curves of the caller's, or of a file that was opened.
+    void add(const std::vector<CurveView>& curves, const OpenedIndex* opened, Control* control) {
         Poller poller(control);
         refuse_reports("add", "does not see the curves; add them after that call");
         const Caller adding(callers_);
         check_like_first({curves, "curves"}, view());
-        const std::unique_ptr<Targets> added = prepared(curves, poller);
+        const std::unique_ptr<Targets> added = prepared(curves, opened, poller);
         SizeCounts::Counts more;
         for (const CurveView& curve : curves) ++more[curve.size()];
         poller.finish();  // the last that may throw Stopped
@@ -81,6 +85,18 @@ class Index::State {
         next.sizes = counts_.without(fewer, std::move(next.sizes));
         counts_.remove(fewer);
         show(std::move(next));
+    }
+
+    void save(const std::string& path, const std::string& note, Control* control) const {
+        Poller poller(control);
+        const Caller saving(callers_);
+        const IndexView view = this->view();
+        std::vector<SavedCurve> saved;
+        for (const std::ptrdiff_t j : view.targets()) {
+            saved.push_back({targets_->curve(j).curve, indices_[j]});
+        }
+        poller.begin(view.seen.points);
+        save_index(path, saved, indices_[view.seen.size], targets_->layout(), note, poller);
     }
 
     std::size_t size() const { return static_cast<std::size_t>(view().seen.remaining); }
@@ -160,16 +176,25 @@ class Index::State {
     }
 
     // Made ready without a lock, while others search.
-    std::unique_ptr<Targets> prepared(const std::vector<CurveView>& curves, Poller& poller) const {
+    std::unique_ptr<Targets> prepared(const std::vector<CurveView>& curves,
+                                      const OpenedIndex* opened, Poller& poller) const {
         std::unique_ptr<Targets> added = measure_->make_targets();
         std::int64_t total = 0;
         for (const CurveView& curve : curves) total += curve.size();
         poller.begin(total);
-        added->reserve(curves, true);
+        const bool are_here = opened != nullptr && opened->layout == added->layout();
+        if (opened != nullptr) opened->check_points(poller);
+        if (are_here) added->hold(opened->file);
+        added->reserve(curves, !are_here);
         for (std::size_t i = 0; i < curves.size(); ++i) {
             const std::string name = CurveList(curves, "curves").name_of(i);
             const CurveInDoubles curve(curves[i], poller);
-            added->add(checked_curve(curve.view(), name, poller), poller);
+            const CheckedCurve checked = checked_curve(curve.view(), name, poller);
+            if (are_here) {
+                added->look_at(checked, opened->points[i], poller);
+            } else {
+                added->add(checked, poller);
+            }
             if (poller.count_steps(curves[i].size())) throw Stopped();
         }
         return added;
@@ -256,7 +281,7 @@ class Index::State {
 
 Index::Index(const std::vector<CurveView>& curves, const Measure& measure, Control* control)
     : state_(std::make_unique<State>(TargetIndices(), measure)) {
-    state_->add(curves, control);
+    state_->add(curves, nullptr, control);
 }
 Index::Index(const std::vector<CurveView>& curves, std::vector<std::int64_t> indices,
              std::int64_t next_index, const Measure& measure, Control* control) {
@@ -266,11 +291,30 @@ Index::Index(const std::vector<CurveView>& curves, std::vector<std::int64_t> ind
                                     " curves; give one for each");
     }
     state_ = std::make_unique<State>(TargetIndices(std::move(indices), next_index), measure);
-    state_->add(curves, control);
+    state_->add(curves, nullptr, control);
 }
 Index::Index(Index&&) noexcept = default;
 Index& Index::operator=(Index&&) noexcept = default;
 Index::~Index() = default;
+
+Index::Index(TakenState, std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+
+IndexFile::IndexFile(const std::string& path)
+    : opened_(std::make_shared<const OpenedIndex>(path)) {}
+const std::string& IndexFile::note() const noexcept { return opened_->note; }
+
+Index Index::open(const IndexFile& file, const Measure& measure, Control* control) {
+    const OpenedIndex& opened = *file.opened_;
+    auto state = std::make_unique<State>(TargetIndices(opened.indices, opened.next_index), measure);
+    state->add(opened.curves, &opened, control);
+    return {TakenState(), std::move(state)};
+}
+Index Index::open(const std::string& path, const Measure& measure, Control* control) {
+    return open(IndexFile(path), measure, control);
+}
+void Index::save(const std::string& path, const std::string& note, Control* control) const {
+    state().save(path, note, control);
+}
 
 Index::State& Index::state() const {
     if (state_) return *state_;
@@ -278,7 +322,7 @@ Index::State& Index::state() const {
 }
 
 void Index::add(const std::vector<CurveView>& curves, Control* control) {
-    state().add(curves, control);
+    state().add(curves, nullptr, control);
 }
 std::size_t Index::size() const { return state_ ? state_->size() : 0; }
 std::vector<CurveView> Index::curves() const {

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from ..curves.labels import Labels, check_distinct, labels_at, taken
 
-__all__ = ["IndexLabels"]
+__all__ = ["IndexLabels", "with_gaps"]
 
 Places = npt.NDArray[np.int64]
 
@@ -111,3 +111,13 @@ class IndexLabels:
         """Forget which curves have these labels, so that others may have them."""
         for label in labels:
             del self._indices[label]
+
+
+def with_gaps(labels: list[Any] | None, indices: Places, count: int) -> list[Any] | None:
+    """Return `count` labels: those of the curves of `indices`, and any of them in between."""
+    if not labels:  # of no curves
+        return labels if labels is None else [None] * count
+    spread = [labels[0]] * count
+    for label, index in zip(labels, indices.tolist(), strict=True):
+        spread[index] = label
+    return spread

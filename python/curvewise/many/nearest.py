@@ -7,6 +7,7 @@ answers.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from importlib import import_module
@@ -18,6 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._core import Index as CompiledIndex
+from .._core import IndexFile
 from .._docstrings import filled
 from .._extras import extra
 from .._options import Default, check_choice, whole_number
@@ -32,7 +34,8 @@ from ..curves.labels import (
 from ..curves.layouts import Layout
 from ..curves.reference_systems import check_reference_systems
 from ..measures.registry import MeasureName
-from .index_labels import IndexLabels
+from .index_file import read_note, write_note
+from .index_labels import IndexLabels, with_gaps
 from .pairwise import Curves, LabelledCurves, _check_names, checked_limit
 
 __all__ = ["Index", "checked_count"]
@@ -136,6 +139,85 @@ class Index:
             contents = self._index.curves(), self._index.indices(), self._index.next_index()
             return _restored, (self._described(), *contents)
 
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the index to a file, which :meth:`open` reads.
+
+        Parameters
+        ----------
+        path : path-like
+            The file. It replaces another file of this name at the end, also the file that this
+            index was opened from. If saving fails or is interrupted, the other file stays as it is.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written.
+        TypeError
+            If a label or an option is not text, a number, a tuple of these, or a `StepPattern`.
+
+        Notes
+        -----
+        The file has the points in float64, and the labels, indices, measure and options of the
+        index. It does not have removed curves. Searches in other threads go on, while :meth:`add`
+        and :meth:`remove` wait.
+
+        Examples
+        --------
+        >>> import curvewise, os, tempfile
+        >>> path = os.path.join(tempfile.mkdtemp(), "index")
+        >>> curvewise.Index({"ramp": [0, 1, 2, 3], "peak": [0, 3, 0]}, "dtw").save(path)
+        >>> index = curvewise.Index.open(path)
+        >>> index
+        Index(<2 curves>, 'dtw')
+        >>> index.kneighbors([[0, 2, 0]], n_neighbors=1)[1].loc[0].tolist()
+        ['peak']
+        """
+        with self._changing:  # so that labels and curves agree
+            labels = self._labels.of_rows(self._index.indices())
+            note = write_note(self._described(), None if labels is None else list(labels))
+            self._index.save(os.fsencode(path), note)
+
+    @classmethod
+    def open(cls, path: str | os.PathLike[str]) -> Index:
+        """Return the index of a file that :meth:`save` has written.
+
+        Parameters
+        ----------
+        path : path-like
+            The file.
+
+        Returns
+        -------
+        Index
+            An index with bitwise identical answers. The file is mapped into memory: processes that
+            open the same file share the memory of its points. Curves that are added, and curves
+            that are removed, do not change the file.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be opened.
+        ValueError
+            If the file is not an index, is damaged, or has another format or byte order.
+
+        Notes
+        -----
+        O(n) time for each curve: all points are read once, to compare their checksum and to compute
+        their bounds. "frechet_continuous", "curve_length" and "haversine" need more memory of their
+        own than other measures. Do not write to the file while an index is open; :meth:`save`
+        replaces it.
+        """
+        file = IndexFile(os.fsencode(path))
+        described, labels = read_note(file.note(), os.fspath(path))
+        index = cls.__new__(cls)
+        vars(index).update(described)
+        index._hold(CompiledIndex(file, index._measure, index._options))
+        remaining = index._index.indices()
+        index._labels = IndexLabels(
+            with_gaps(labels, remaining, index._index.next_index()), remaining
+        )
+        return index
+
     def _described(self) -> dict[str, Any]:
         """Return all attributes but the curves, for a copy."""
         return {
@@ -205,8 +287,8 @@ class Index:
         Notes
         -----
         O(1) time for each curve, and a copy of one bit for each curve of the index. Searches that
-        run in other threads still see the curves. Their memory is not freed; a copy of the index,
-        by pickle for example, does not have it. An index is not used again, but a label may be.
+        run in other threads still see the curves. Their memory is not freed until the index is
+        saved and opened, or pickled. An index is not used again, but a label may be.
 
         Examples
         --------
