@@ -107,6 +107,10 @@ class FrechetContinuousMeasure::Bounds {
         kept_.make_room(static_cast<std::ptrdiff_t>(curves.size()));
     }
     void keep(const PreparedQ& Q) { kept_.push_back({Q.checked, Q.boxed}); }
+    pairwise::RowShape row_shape(const FrechetContinuousMeasure& /*measure*/) const noexcept {
+        return kept_[0].row_shape();
+    }
+    void write_row(std::ptrdiff_t j, double* row) const noexcept { kept_[j].write_row(row); }
     void make_room(const Bounds& others) { kept_.make_room(others.kept_); }
     void take(Bounds& others) noexcept { kept_.take(others.kept_); }
 
@@ -114,13 +118,26 @@ class FrechetContinuousMeasure::Bounds {
        public:
         Query(const FrechetContinuousMeasure& measure, const Bounds& bounds, const PreparedP& P)
             : measure_(measure), kept_(bounds.kept_), P_(P), summary_(P.checked, P.boxed) {}
-        void quick(double* bounds, std::ptrdiff_t count) const {
-            kept_.in_parts(count, [&](const CurveSummary* others, std::ptrdiff_t part) {
-                for (const CurveSummary* other = others; other != others + part; ++other) {
-                    *bounds++ =
-                        is_plain(other->largest()) ? summary_.bound(*other, P_.boxed.dim()) : 0.0;
-                }
+        void quick(std::ptrdiff_t first, std::ptrdiff_t count, double* bounds) const {
+            kept_.in_parts(first, count, [&](const CurveSummary* others, std::ptrdiff_t part) {
+                for (std::ptrdiff_t k = 0; k < part; ++k) *bounds++ = quick_bound(others[k]);
             });
+        }
+        void quick(std::ptrdiff_t first, const pairwise::BoundTree::Leaf& leaf,
+                   double* bounds) const {
+            for (std::ptrdiff_t k = 0; k < leaf.count; ++k) {
+                bounds[k] = quick_bound(kept_[first + leaf.places[k]]);
+            }
+        }
+        void of_boxes(const double* boxes, std::ptrdiff_t count, double* bounds) const {
+            const std::ptrdiff_t dim = P_.boxed.dim();
+            const std::ptrdiff_t width = summary_.row_shape().width;
+            for (const double* box = boxes; box != boxes + count * 2 * width; box += 2 * width) {
+                // Then all curves in the box are plain: the plain range is an interval, and 0. If P
+                // and one of the curves are 0, the bound is.
+                const bool is_bounded = is_plain(box[width - 1]) && is_plain(box[2 * width - 1]);
+                *bounds++ = is_bounded ? summary_.bound_of_box(box, dim) : 0.0;
+            }
         }
         double refined(std::ptrdiff_t /*j*/, const PreparedQ& Q, int level) const {
             if (!is_plain(Q.checked.largest)) return 0.0;
@@ -135,6 +152,9 @@ class FrechetContinuousMeasure::Bounds {
         }
 
        private:
+        double quick_bound(const CurveSummary& other) const noexcept {
+            return is_plain(other.largest()) ? summary_.bound(other, P_.boxed.dim()) : 0.0;
+        }
         bool is_plain(double largest) const noexcept {
             return plain_scale(std::max(summary_.largest(), largest)).is_identity();
         }

@@ -60,6 +60,31 @@ double CurveSummary::bound(const CurveSummary& other, std::ptrdiff_t dim) const 
     return safe_root(std::max(ends, beyond * beyond), dim);
 }
 
+void CurveSummary::write_row(double* row) const noexcept {
+    *std::copy(numbers_.begin(), numbers_.end(), row) = largest_;
+}
+
+// As bound(), with each number of the other curve replaced by the nearest one in its interval. All
+// operations are monotone.
+double CurveSummary::bound_of_box(const double* box, std::ptrdiff_t dim) const noexcept {
+    const double* const p = numbers_.data();
+    const double* const least = box;
+    const double* const greatest = box + 4 * dim + 1;
+    const auto beyond_interval = [=](std::ptrdiff_t c) {
+        return std::max(std::max(least[c] - p[c], p[c] - greatest[c]), 0.0);
+    };
+    double first = 0.0, last = 0.0, beyond = 0.0;
+    for (std::ptrdiff_t c = 0; c < dim; ++c) {
+        const double of_first = beyond_interval(c), of_last = beyond_interval(dim + c);
+        first += of_first * of_first;
+        last += of_last * of_last;
+    }
+    for (std::ptrdiff_t c = 2 * dim; c < 4 * dim; ++c) {
+        beyond = std::max(beyond, beyond_interval(c));
+    }
+    return safe_root(std::max(std::max(first, last), beyond * beyond), dim);
+}
+
 double run_bound(const BoxedCurve& P, const BoxedCurve& Q, std::ptrdiff_t most_runs) {
     const int p_level = level_with(P, most_runs), q_level = level_with(Q, most_runs);
     const std::ptrdiff_t rows = P.boxes(p_level), columns = Q.boxes(q_level), dim = P.dim();

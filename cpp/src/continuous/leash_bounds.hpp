@@ -15,6 +15,7 @@
 
 #include "continuous/boxed_curve.hpp"
 #include "curves/checks.hpp"
+#include "pairwise/bound_tree.hpp"
 
 namespace curvewise::continuous {
 
@@ -26,6 +27,16 @@ class CurveSummary {
     // A lower bound from the summaries of two curves with `dim` coordinates.
     double bound(const CurveSummary& other, std::ptrdiff_t dim) const noexcept;
     double largest() const noexcept { return largest_; }
+
+    // The row of this curve for trees over these bounds (pairwise/bound_tree.hpp): all its numbers,
+    // the largest |coordinate| last.
+    pairwise::RowShape row_shape() const noexcept {
+        const auto count = static_cast<std::ptrdiff_t>(numbers_.size());
+        return {count + 1, count};
+    }
+    void write_row(double* row) const noexcept;
+    // Not above the bound of any curve with its row in the box, if all of these are plain.
+    double bound_of_box(const double* box, std::ptrdiff_t dim) const noexcept;
 
    private:
     double largest_;

@@ -73,6 +73,7 @@ class Index::State {
         next.seen.points += seen.points;
         targets_->make_room(*added);
         targets_->take(*added);  // from here on nothing fails
+        next.seen.forest = targets_->seen().forest;
         counts_.add(more);
         show(std::move(next));
     }
@@ -197,6 +198,7 @@ class Index::State {
             }
             if (poller.count_steps(curves[i].size())) throw Stopped();
         }
+        added->plant(poller);
         return added;
     }
 

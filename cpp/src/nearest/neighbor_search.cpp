@@ -49,10 +49,29 @@ bool is_nearer(const Neighbor& a, const Neighbor& b) noexcept {
 
 NeighborSearch::NeighborSearch(const pairwise::Targets& targets, const pairwise::Seen& seen,
                                Poller& poller)
-    : seen_(seen), poller_(poller), memory_(targets.make_memory()) {}
+    : seen_(seen),
+      poller_(poller),
+      memory_(targets.make_memory()),
+      quick_(static_cast<std::size_t>(BoundTree::leaf_rows)) {}
 
-bool NeighborSearch::comes_later(const Candidate& a, const Candidate& b) noexcept {
-    return a.bound != b.bound ? a.bound > b.bound : a.target > b.target;
+const std::vector<BoundForest::Planted>& NeighborSearch::trees() const noexcept {
+    static const std::vector<BoundForest::Planted> none;
+    return seen_.forest == nullptr ? none : seen_.forest->trees();
+}
+
+std::ptrdiff_t NeighborSearch::bound_rest(TargetQuery& query) {
+    const std::ptrdiff_t first = seen_.forest == nullptr ? 0 : seen_.forest->size();
+    const std::ptrdiff_t count = seen_.size - first;
+    quick_.resize(static_cast<std::size_t>(std::max(count, BoundTree::leaf_rows)));
+    query.quick(first, count, quick_.data());
+    return first;
+}
+
+NeighborSearch::BoxBounds NeighborSearch::bounds_of(TargetQuery& query, const BoundTree& tree,
+                                                    int level, std::ptrdiff_t first) {
+    BoxBounds boxes{{}, std::min(BoundTree::fan, tree.boxes(level) - first)};
+    query.of_boxes(tree.box(level, first), boxes.count, boxes.bounds);
+    return boxes;
 }
 
 std::vector<Neighbor> NeighborSearch::nearest(TargetQuery& query, std::int64_t all_steps,
@@ -61,25 +80,62 @@ std::vector<Neighbor> NeighborSearch::nearest(TargetQuery& query, std::int64_t a
     const OwnCount own_count(poller_);
     counted_ = 0;
     most_ = static_cast<std::size_t>(count_wanted);
+    left_out_ = left_out;
     best_.clear();
     heap_.clear();
-    quick_.resize(static_cast<std::size_t>(seen_.size));
-    query.quick(quick_.data());
-    for (std::ptrdiff_t j = 0; j < seen_.size; ++j) {
-        if (j != left_out && seen_.has(j))
-            heap_.push_back({quick_[static_cast<std::size_t>(j)], j, 0});
+    for (std::size_t t = 0; t < trees().size(); ++t) {
+        push_boxes(query, static_cast<int>(t), trees()[t].tree->levels() - 1, 0);
     }
-    record_.pairs += static_cast<std::int64_t>(heap_.size());
-    std::make_heap(heap_.begin(), heap_.end(), comes_later);
+    const std::ptrdiff_t first = bound_rest(query);
+    for (std::ptrdiff_t j = first; j < seen_.size; ++j) {
+        if (is_wanted(j)) heap_.push_back({quick_[static_cast<std::size_t>(j - first)], j, 0});
+    }
+    std::make_heap(heap_.begin(), heap_.end(), ComesLater());
+    record_.pairs += seen_.remaining - (left_out >= 0 ? 1 : 0);
     while (!heap_.empty() && !(heap_.front().bound > cutoff())) {
-        std::pop_heap(heap_.begin(), heap_.end(), comes_later);
+        std::pop_heap(heap_.begin(), heap_.end(), ComesLater());
         const Candidate candidate = heap_.back();
         heap_.pop_back();
-        look_at(query, candidate);
+        if (candidate.target < 0) {
+            look_into(query, candidate);
+        } else {
+            look_at(query, candidate);
+        }
     }
     count(poller_, all_steps - counted_);
     std::sort(best_.begin(), best_.end(), is_nearer);
     return best_;
+}
+
+void NeighborSearch::push(const Candidate& candidate) {
+    heap_.push_back(candidate);
+    std::push_heap(heap_.begin(), heap_.end(), ComesLater());
+}
+
+void NeighborSearch::push_boxes(TargetQuery& query, int tree, int level, std::ptrdiff_t first) {
+    const BoxBounds boxes =
+        bounds_of(query, *trees()[static_cast<std::size_t>(tree)].tree, level, first);
+    const double most = cutoff();
+    for (std::ptrdiff_t b = 0; b < boxes.count; ++b) {
+        if (!(boxes.bounds[b] > most)) push({boxes.bounds[b], ~(first + b), level, tree});
+    }
+}
+
+void NeighborSearch::look_into(TargetQuery& query, const Candidate& box) {
+    const std::ptrdiff_t place = ~box.target;
+    poll(poller_, bound_effort);
+    if (box.level > 0) {
+        return push_boxes(query, box.tree, box.level - 1, place * BoundTree::fan);
+    }
+    const BoundForest::Planted& planted = trees()[static_cast<std::size_t>(box.tree)];
+    const BoundTree::Leaf leaf = planted.tree->leaf(place);
+    const double most = cutoff();
+    query.quick(planted.first, leaf, quick_.data());
+    for (std::ptrdiff_t k = 0; k < leaf.count; ++k) {
+        const std::ptrdiff_t target = planted.first + leaf.places[k];
+        const double bound = quick_[static_cast<std::size_t>(k)];
+        if (!(bound > most) && is_wanted(target)) push({bound, target, 0});
+    }
 }
 
 // Raises the bound until another candidate comes first, or no candidate remains.
@@ -87,13 +143,10 @@ void NeighborSearch::look_at(TargetQuery& query, Candidate candidate) {
     if (candidate.level == 0 && query.levels() > 1) ++record_.refined;
     while (candidate.level + 1 < query.levels()) {
         ++candidate.level;
-        candidate.bound = refined(query, candidate);
+        candidate.bound =
+            std::max(candidate.bound, refined(query, candidate.target, candidate.level));
         if (candidate.bound > cutoff()) return finish_pair(query, candidate.target);
-        if (!heap_.empty() && comes_later(candidate, heap_.front())) {
-            heap_.push_back(candidate);
-            std::push_heap(heap_.begin(), heap_.end(), comes_later);
-            return;
-        }
+        if (!heap_.empty() && ComesLater()(candidate, heap_.front())) return push(candidate);
     }
     keep_if_near({candidate.target, value(query, candidate.target, cutoff())});
     finish_pair(query, candidate.target);
@@ -104,33 +157,75 @@ std::vector<Neighbor> NeighborSearch::within(TargetQuery& query, std::int64_t al
                                              std::ptrdiff_t left_out) {
     const OwnCount own_count(poller_);
     counted_ = 0;
+    left_out_ = left_out;
+    record_.pairs += seen_.remaining - (left_out >= 0 ? 1 : 0);
     std::vector<Neighbor> found;
-    quick_.resize(static_cast<std::size_t>(seen_.size));
-    query.quick(quick_.data());
-    for (std::ptrdiff_t j = 0; j < seen_.size; ++j) {
-        if (j == left_out || !seen_.has(j)) continue;
-        ++record_.pairs;
-        Candidate candidate{quick_[static_cast<std::size_t>(j)], j, 0};
-        if (candidate.bound > radius) continue;
-        if (query.levels() > 1) ++record_.refined;
-        while (candidate.bound <= radius && candidate.level + 1 < query.levels()) {
-            ++candidate.level;
-            candidate.bound = refined(query, candidate);
-        }
-        if (candidate.bound <= radius) {
-            const std::optional<double> distance =
-                distance_within(query, j, radius, with_distances);
-            if (distance) found.push_back({j, *distance});
-        }
-        finish_pair(query, j);
+    const auto look_at = [&](std::ptrdiff_t target) {
+        if (is_wanted(target)) look_within(query, target, radius, with_distances, found);
+    };
+    for_marked_within(query, radius, look_at);
+    const std::ptrdiff_t first = bound_rest(query);
+    for (std::ptrdiff_t j = first; j < seen_.size; ++j) {
+        if (!(quick_[static_cast<std::size_t>(j - first)] > radius)) look_at(j);
     }
     count(poller_, all_steps - counted_);
     return found;
 }
 
-double NeighborSearch::refined(TargetQuery& query, const Candidate& candidate) {
+// In the order of the targets, which trees do not have.
+template <class LookAt>
+void NeighborSearch::for_marked_within(TargetQuery& query, double radius, LookAt look_at) {
+    if (trees().empty()) return;
+    marks_.assign(static_cast<std::size_t>((seen_.forest->size() + 63) / 64), 0);
+    for (const BoundForest::Planted& planted : trees()) {
+        mark_within(query, planted, planted.tree->levels() - 1, 0, radius);
+    }
+    for (std::size_t w = 0; w < marks_.size(); ++w) {
+        auto target = static_cast<std::ptrdiff_t>(64 * w);
+        for (std::uint64_t marks = marks_[w]; marks != 0; marks >>= 1, ++target) {
+            if ((marks & 1) != 0) look_at(target);
+        }
+    }
+}
+
+void NeighborSearch::mark_within(TargetQuery& query, const BoundForest::Planted& planted, int level,
+                                 std::ptrdiff_t first, double radius) {
+    const BoundTree& tree = *planted.tree;
+    const BoxBounds boxes = bounds_of(query, tree, level, first);
     poll(poller_, bound_effort);
-    return std::max(candidate.bound, query.refined(candidate.target, candidate.level));
+    for (std::ptrdiff_t b = 0; b < boxes.count; ++b) {
+        if (boxes.bounds[b] > radius) continue;
+        if (level > 0) {
+            mark_within(query, planted, level - 1, (first + b) * BoundTree::fan, radius);
+            continue;
+        }
+        const BoundTree::Leaf leaf = tree.leaf(first + b);
+        query.quick(planted.first, leaf, quick_.data());
+        for (std::ptrdiff_t k = 0; k < leaf.count; ++k) {
+            if (quick_[static_cast<std::size_t>(k)] > radius) continue;
+            const auto target = static_cast<std::size_t>(planted.first + leaf.places[k]);
+            marks_[target / 64] |= std::uint64_t{1} << (target % 64);
+        }
+    }
+}
+
+void NeighborSearch::look_within(TargetQuery& query, std::ptrdiff_t target, double radius,
+                                 bool with_distances, std::vector<Neighbor>& found) {
+    const int levels = query.levels();
+    if (levels > 1) ++record_.refined;
+    int level = 1;
+    while (level < levels && !(refined(query, target, level) > radius)) ++level;
+    if (level >= levels) {
+        const std::optional<double> distance =
+            distance_within(query, target, radius, with_distances);
+        if (distance) found.push_back({target, *distance});
+    }
+    finish_pair(query, target);
+}
+
+double NeighborSearch::refined(TargetQuery& query, std::ptrdiff_t target, int level) {
+    poll(poller_, bound_effort);
+    return query.refined(target, level);
 }
 
 double NeighborSearch::value(TargetQuery& query, std::ptrdiff_t target, double cutoff) {

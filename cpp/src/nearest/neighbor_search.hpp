@@ -1,10 +1,13 @@
 // The search for the nearest targets of one query, by one thread (see curvewise/nearest.hpp).
 //
-// A heap holds the candidates by their bounds. The candidate with the smallest bound is removed. If
-// its bound can be raised, it is, and the candidate returns to the heap; if not, its distance is
-// computed. The search ends if the smallest bound is above the k-th best distance. The comparison
-// is strict, since an equal distance with a smaller index would still come first. O(N) time for N
-// targets, and O(log N) for each removal, in addition to bounds and distances.
+// A heap holds the candidates by their bounds, and boxes of trees around more of them
+// (pairwise/bound_tree.hpp). The candidate or box with the smallest bound is removed. A box is
+// replaced by the boxes or candidates in it. If the bound of a candidate can be raised, it is, and
+// the candidate returns to the heap; if not, its distance is computed. The search ends if the
+// smallest bound is above the k-th best distance. The comparison is strict, since an equal distance
+// with a smaller index would still come first. Of equal bounds, boxes come first. So the candidates
+// are removed in the same order as without trees. O(log N) time for each removal, in addition to
+// bounds and distances, and O(N) for N targets in no tree.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +22,8 @@
 
 namespace curvewise::nearest {
 
+using pairwise::BoundForest;
+using pairwise::BoundTree;
 using pairwise::TargetQuery;
 using runtime::Poller;
 
@@ -43,17 +48,50 @@ class NeighborSearch {
    private:
     struct Candidate {
         double bound;
-        std::ptrdiff_t target;
-        int level;
+        std::ptrdiff_t target;  // or, of a box, the complement of its place in its level
+        int level;              // of the bound, or of the box in its tree
+        int tree = 0;
     };
 
-    static bool comes_later(const Candidate& a, const Candidate& b) noexcept;
+    // A type, not a function, so that the heap's loops hold its code.
+    struct ComesLater {
+        bool operator()(const Candidate& a, const Candidate& b) const noexcept {
+            return a.bound != b.bound ? a.bound > b.bound : a.target > b.target;
+        }
+    };
+    bool is_wanted(std::ptrdiff_t target) const noexcept {
+        return target != left_out_ && seen_.has(target);
+    }
+    void push(const Candidate& candidate);
+    // Puts boxes of a tree on the heap, from the `first` one of their level on.
+    void push_boxes(TargetQuery& query, int tree, int level, std::ptrdiff_t first);
+    // Puts what is in a box on the heap.
+    void look_into(TargetQuery& query, const Candidate& box);
     void look_at(TargetQuery& query, Candidate candidate);
+    // The bounds of up to BoundTree::fan boxes, from the `first` one of their level on.
+    struct BoxBounds {
+        double bounds[BoundTree::fan];
+        std::ptrdiff_t count;
+    };
+    static BoxBounds bounds_of(TargetQuery& query, const BoundTree& tree, int level,
+                               std::ptrdiff_t first);
+    // Calls look_at(target) for the targets in trees whose first bounds are within the radius.
+    template <class LookAt>
+    void for_marked_within(TargetQuery& query, double radius, LookAt look_at);
+    // Marks those in boxes of a tree.
+    void mark_within(TargetQuery& query, const BoundForest::Planted& planted, int level,
+                     std::ptrdiff_t first, double radius);
+    // Adds a target whose first bound is within the radius to `found`, if it is, too.
+    void look_within(TargetQuery& query, std::ptrdiff_t target, double radius, bool with_distances,
+                     std::vector<Neighbor>& found);
+    // Writes the first bounds of the targets in no tree, and returns the first of these.
+    std::ptrdiff_t bound_rest(TargetQuery& query);
+    const std::vector<BoundForest::Planted>& trees() const noexcept;
     // The distance, or nan where it is not wanted, of a target that is within the radius.
     std::optional<double> distance_within(TargetQuery& query, std::ptrdiff_t target, double radius,
                                           bool is_wanted);
     double value(TargetQuery& query, std::ptrdiff_t target, double cutoff);
-    double refined(TargetQuery& query, const Candidate& candidate);
+    double refined(TargetQuery& query, std::ptrdiff_t target, int level);
     void keep_if_near(const Neighbor& found);
     // A distance above it is of no interest.
     double cutoff() const noexcept;
@@ -62,8 +100,10 @@ class NeighborSearch {
     pairwise::Seen seen_;
     Poller& poller_;
     std::unique_ptr<pairwise::ThreadMemory> memory_;
-    std::vector<double> quick_;
+    std::vector<double> quick_;  // first bounds, with room for those of a leaf
     std::vector<Candidate> heap_;
+    std::vector<std::uint64_t> marks_;  // one bit for each target in a tree
+    std::ptrdiff_t left_out_ = -1;
     std::vector<Neighbor> best_;  // a heap with the furthest on top
     std::size_t most_ = 0;
     std::int64_t counted_ = 0;

@@ -28,7 +28,7 @@ void QueryRun::take_queries(Poller& poller) noexcept {
         for (std::size_t i = next_++; i < queries_.curves.size() && !has_failed_; i = next_++) {
             const LoadedCurve loaded(queries_.curves[i], poller);
             const CheckedCurve& P = loaded.checked();
-            const std::unique_ptr<TargetQuery> query = targets_.query(P, seen_, poller);
+            const std::unique_ptr<TargetQuery> query = targets_.query(P, poller);
             answer_(search, *query, i, steps(P), queries_.left_out(i));
         }
         const std::lock_guard<std::mutex> lock(mutex_);

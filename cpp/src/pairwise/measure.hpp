@@ -37,10 +37,15 @@
 //                                        keep(prepared_q) after reserve(measure, curves), or by
 //                                        make_room(others) and then take(others), which does not
 //                                        throw, empties the others, and changes nothing that a
-//                                        query reads
+//                                        query reads; has
+//     row_shape(measure)                 the shape of the rows for trees over the first bounds,
+//                                        where there is a Q; its width is 0 for no trees
+//     write_row(j, row)                  that of Q number j
 //   M::Bounds::levels                    the number of bounds of a pair, from cheap to expensive
 //   M::Bounds::Query                     of one P: made from (measure, bounds, prepared_p);
-//     quick(out, count)                  the first bound of each of the first `count` Qs
+//     quick(first, count, out)           the first bound of each of `count` Qs from `first` on
+//     quick(first, leaf, out)            of those of a leaf of a tree (bound_tree.hpp)
+//     of_boxes(boxes, count, out)        a bound for each of these boxes around rows
 //     refined(j, prepared_q, level)      a later one
 //     value(j, prepared_q, call)         the value, as the measure gives it
 //     is_within(j, prepared_q, call)     whether that is at most the call's cutoff

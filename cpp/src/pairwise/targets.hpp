@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "curves/checks.hpp"
+#include "pairwise/bound_tree.hpp"
 #include "pairwise/pair_run.hpp"
 #include "pairwise/stored_curve.hpp"
 
@@ -28,8 +29,13 @@ class TargetQuery {
 
     // The number of bounds of a pair, at least 1.
     virtual int levels() const noexcept = 0;
-    // Writes the first bound of each target that was seen when this was made, with those removed.
-    virtual void quick(double* bounds) = 0;
+    // Writes the first bound of each of `count` targets from `first` on.
+    virtual void quick(std::ptrdiff_t first, std::ptrdiff_t count, double* bounds) = 0;
+    // Of those in a leaf of a tree, whose rows begin with target `first`.
+    virtual void quick(std::ptrdiff_t first, const BoundTree::Leaf& leaf, double* bounds) = 0;
+    // Writes a bound for each of `count` boxes: no first bound of a target with its row in the box
+    // is below.
+    virtual void of_boxes(const double* boxes, std::ptrdiff_t count, double* bounds) = 0;
     // That of a level above 0.
     virtual double refined(std::ptrdiff_t j, int level) = 0;
     virtual double value(std::ptrdiff_t j, const PairCall& call) = 0;
@@ -47,6 +53,8 @@ struct Seen {
     std::int64_t points = 0;  // of all that remain together
     // By target, shorter where the last ones remain; null if none is removed.
     std::shared_ptr<const std::vector<bool>> removed;
+    // Over the first bounds, of those that are removed, too; null where there are no trees.
+    std::shared_ptr<const BoundForest> forest;
 
     bool has(std::ptrdiff_t j) const noexcept {
         const auto place = static_cast<std::size_t>(j);
@@ -76,7 +84,10 @@ class Targets {
     virtual void look_at(const CheckedCurve& Q, const double* points, Poller& poller) = 0;
     virtual void hold(std::shared_ptr<const void> points) = 0;
     virtual PointLayout layout() const noexcept = 0;
+    // Makes the trees of those that were added to none.
+    virtual void plant(Poller& poller) = 0;
     // Adds those of `others`, of the same measure, for which room was made, and leaves it empty.
+    // The trees of both are merged.
     virtual void make_room(const Targets& others) = 0;
     virtual void take(Targets& others) noexcept = 0;
     // All, for the thread that adds. None is removed: what is removed stays here, and callers skip
@@ -87,8 +98,7 @@ class Targets {
     virtual CheckedCurve curve(std::ptrdiff_t j) const = 0;
     // Throws where P serves no Q, as query() does.
     virtual void check(const CheckedCurve& P, Poller& poller) const = 0;
-    virtual std::unique_ptr<TargetQuery> query(const CheckedCurve& P, const Seen& seen,
-                                               Poller& poller) const = 0;
+    virtual std::unique_ptr<TargetQuery> query(const CheckedCurve& P, Poller& poller) const = 0;
     // The nominal steps of a P of n points with all that are seen.
     virtual std::int64_t steps(std::ptrdiff_t n, const Seen& seen) const noexcept = 0;
     virtual std::unique_ptr<ThreadMemory> make_memory() const = 0;

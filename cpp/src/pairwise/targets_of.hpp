@@ -23,6 +23,8 @@ class NoBounds {
     static constexpr int levels = 1;
     void reserve(const M& /*measure*/, const std::vector<CurveView>& /*curves*/) noexcept {}
     void keep(const typename M::PreparedQ& /*Q*/) noexcept {}
+    static RowShape row_shape(const M& /*measure*/) noexcept { return {}; }
+    void write_row(std::ptrdiff_t /*j*/, double* /*row*/) const noexcept {}
     void make_room(const NoBounds& /*others*/) noexcept {}
     void take(NoBounds& /*others*/) noexcept {}
 
@@ -30,8 +32,17 @@ class NoBounds {
        public:
         Query(const M& measure, const NoBounds& /*bounds*/, const typename M::PreparedP& P) noexcept
             : measure_(measure), P_(P) {}
-        void quick(double* bounds, std::ptrdiff_t count) const noexcept {
+        void quick(std::ptrdiff_t /*first*/, std::ptrdiff_t count, double* bounds) const noexcept {
             std::fill_n(bounds, count, -std::numeric_limits<double>::infinity());
+        }
+        // There are no trees.
+        void quick(std::ptrdiff_t /*first*/, const BoundTree::Leaf& leaf,
+                   double* bounds) const noexcept {
+            quick(0, leaf.count, bounds);
+        }
+        void of_boxes(const double* /*boxes*/, std::ptrdiff_t count,
+                      double* bounds) const noexcept {
+            quick(0, count, bounds);
         }
         double refined(std::ptrdiff_t /*j*/, const typename M::PreparedQ& /*Q*/,
                        int /*level*/) const noexcept {
@@ -113,12 +124,15 @@ class TargetsOf final : public Targets {
     PointLayout layout() const noexcept override {
         return on_sphere_ ? PointLayout::rows : layout_of<PreparedQ>;
     }
+    void plant(Poller& poller) override { forest_ = with_trees_of(TargetsOf(measure_), poller); }
     void make_room(const Targets& targets) override {
         const auto& others = static_cast<const TargetsOf&>(targets);
         curves_.make_room(others.curves_);
         prepared_.make_room(others.prepared_);
         blocks_.make_room(others.blocks_);
         bounds_.make_room(others.bounds_);
+        Poller unpolled(nullptr);
+        merged_forest_ = with_trees_of(others, unpolled);
     }
     void take(Targets& targets) noexcept override {
         auto& others = static_cast<TargetsOf&>(targets);
@@ -128,9 +142,11 @@ class TargetsOf final : public Targets {
         blocks_.take(others.blocks_);
         bounds_.take(others.bounds_);
         points_ += std::exchange(others.points_, 0);
+        forest_ = std::move(merged_forest_);
+        others.forest_ = nullptr;
     }
     Seen seen() const noexcept override {
-        return {curves_.size(), curves_.size(), points_, nullptr};
+        return {curves_.size(), curves_.size(), points_, nullptr, forest_};
     }
     CheckedCurve curve(std::ptrdiff_t j) const override { return checked(curves_[j]); }
     void check(const CheckedCurve& P, Poller& poller) const override {
@@ -139,9 +155,8 @@ class TargetsOf final : public Targets {
     std::int64_t steps(std::ptrdiff_t n, const Seen& seen) const noexcept override {
         return M::steps(n, seen.remaining, seen.points);
     }
-    std::unique_ptr<TargetQuery> query(const CheckedCurve& P, const Seen& seen,
-                                       Poller& poller) const override {
-        return std::make_unique<Query>(*this, seen.size, P, poller);
+    std::unique_ptr<TargetQuery> query(const CheckedCurve& P, Poller& poller) const override {
+        return std::make_unique<Query>(*this, P, poller);
     }
     std::unique_ptr<ThreadMemory> make_memory() const override {
         return std::make_unique<OwnMemory>();
@@ -156,15 +171,20 @@ class TargetsOf final : public Targets {
 
     class Query final : public TargetQuery {
        public:
-        Query(const TargetsOf& targets, std::ptrdiff_t count, const CheckedCurve& P, Poller& poller)
-            : targets_(targets),
-              count_(count),
-              P_(P, poller),
-              bounds_(targets.measure_, targets.bounds_, P_) {
+        Query(const TargetsOf& targets, const CheckedCurve& P, Poller& poller)
+            : targets_(targets), P_(P, poller), bounds_(targets.measure_, targets.bounds_, P_) {
             targets.measure_.check_p(P_, poller);
         }
         int levels() const noexcept override { return Bounds::levels; }
-        void quick(double* bounds) override { bounds_.quick(bounds, count_); }
+        void quick(std::ptrdiff_t first, std::ptrdiff_t count, double* bounds) override {
+            bounds_.quick(first, count, bounds);
+        }
+        void quick(std::ptrdiff_t first, const BoundTree::Leaf& leaf, double* bounds) override {
+            bounds_.quick(first, leaf, bounds);
+        }
+        void of_boxes(const double* boxes, std::ptrdiff_t count, double* bounds) override {
+            bounds_.of_boxes(boxes, count, bounds);
+        }
         double refined(std::ptrdiff_t j, int level) override {
             return targets_.with_target(
                 j, [&](const PreparedQ& Q) { return bounds_.refined(j, Q, level); });
@@ -188,7 +208,6 @@ class TargetsOf final : public Targets {
         }
 
         const TargetsOf& targets_;
-        std::ptrdiff_t count_;
         typename M::PreparedP P_;
         typename Bounds::Query bounds_;
     };
@@ -216,6 +235,22 @@ class TargetsOf final : public Targets {
         return use(prepared_[j]);
     }
 
+    BoundForest forest_of() const { return forest_ ? *forest_ : BoundForest(); }
+    // Over the bounds of these and the others.
+    std::shared_ptr<const BoundForest> with_trees_of(const TargetsOf& others,
+                                                     Poller& poller) const {
+        const std::ptrdiff_t own = curves_.size(), size = own + others.curves_.size();
+        if (size == 0) return nullptr;
+        const auto write = [&](std::ptrdiff_t j, double* row) {
+            if (j < own) return bounds_.write_row(j, row);
+            others.bounds_.write_row(j - own, row);
+        };
+        const BoundRows rows{(own > 0 ? bounds_ : others.bounds_).row_shape(measure_), write};
+        BoundForest forest = forest_of().with(own, others.forest_of(), size, rows, poller);
+        if (forest.size() == 0) return nullptr;
+        return std::make_shared<const BoundForest>(std::move(forest));
+    }
+
     const M& measure_;
     bool on_sphere_;
     std::ptrdiff_t dim_ = 0;
@@ -224,6 +259,8 @@ class TargetsOf final : public Targets {
     PointBlocks blocks_;
     Bounds bounds_;
     std::int64_t points_ = 0;
+    std::shared_ptr<const BoundForest> forest_;         // null where there are no trees
+    std::shared_ptr<const BoundForest> merged_forest_;  // with those for which room was made
 };
 
 }  // namespace curvewise::pairwise

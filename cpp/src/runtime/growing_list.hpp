@@ -35,10 +35,11 @@ class GrowingList {
         for (; i >= block->places; block = block->next.get()) i -= block->places;
         return block->elements[i];
     }
-    // Calls use(elements, their number) for consecutive parts of the first `count` elements.
+    // Calls use(elements, their number) for consecutive parts of the `count` elements from `first`
+    // on.
     template <class Use>
-    void in_parts(std::ptrdiff_t count, Use&& use) const {
-        walk(count, [&](const T* elements, std::ptrdiff_t part) { use(elements, part); });
+    void in_parts(std::ptrdiff_t first, std::ptrdiff_t count, Use&& use) const {
+        walk(first, count, [&](const T* elements, std::ptrdiff_t part) { use(elements, part); });
     }
 
     // For the thread that makes it longer.
@@ -72,14 +73,14 @@ class GrowingList {
             std::swap(size_, others.size_);
             return;
         }
-        others.walk(others.size_, [this](T* elements, std::ptrdiff_t count) {
+        others.walk(0, others.size_, [this](T* elements, std::ptrdiff_t count) {
             for (std::ptrdiff_t i = 0; i < count; ++i) append(std::move(elements[i]));
         });
         others.clear();
     }
     // Only where no one reads.
     void clear() noexcept {
-        walk(size_, [](T* elements, std::ptrdiff_t count) { std::destroy_n(elements, count); });
+        walk(0, size_, [](T* elements, std::ptrdiff_t count) { std::destroy_n(elements, count); });
         first_.reset();
         last_ = nullptr;
         used_ = size_ = 0;
@@ -105,13 +106,18 @@ class GrowingList {
     }
     // What is behind the last element that is asked for may be written meanwhile, and is not read.
     template <class Use>
-    void walk(std::ptrdiff_t count, Use&& use) const {
+    void walk(std::ptrdiff_t first, std::ptrdiff_t count, Use&& use) const {
         const Block* block = nullptr;
         while (count > 0) {
             block = block == nullptr ? first_.get() : block->next.get();
-            const std::ptrdiff_t part = std::min(count, block->places);
-            use(block->elements, part);
-            count -= part;
+            const std::ptrdiff_t here = std::min(count, block->places - first);
+            if (here > 0) {
+                use(block->elements + first, here);
+                count -= here;
+                first = 0;
+            } else {
+                first -= block->places;
+            }
         }
     }
     // There is room.

@@ -21,25 +21,6 @@ constexpr std::ptrdiff_t most_narrowed_cells = 3 << 18;
 
 constexpr int point_level = 3;
 
-// 4 * dim numbers.
-void write_summary(const BoxTree& tree, double* summary) noexcept {
-    const PointAccess& points = tree.points();
-    const std::ptrdiff_t dim = tree.dim();
-    for (std::ptrdiff_t c = 0; c < dim; ++c) *summary++ = points(0, c);
-    for (std::ptrdiff_t c = 0; c < dim; ++c) *summary++ = points(tree.size() - 1, c);
-    std::copy_n(tree.box(tree.levels() - 1, 0), 2 * dim, summary);
-}
-
-template <class Norm>
-double distance(const double* a, const double* b, std::ptrdiff_t dim) noexcept {
-    double sum = 0.0;
-    for (std::ptrdiff_t c = 0; c < dim; ++c) sum = Norm::add(sum, a[c] - b[c]);
-    return Norm::finish(sum);
-}
-
-// Of a kept curve.
-constexpr std::ptrdiff_t numbers_of(std::ptrdiff_t dim) noexcept { return 1 + 4 * dim; }
-
 double sum_of(const double* terms, std::ptrdiff_t count) noexcept {
     return active_level().kernels->sum(terms, count);
 }
@@ -87,122 +68,21 @@ kernels::PointsAndBoxes all_of(const double* boxes, std::ptrdiff_t count) noexce
 
 }  // namespace
 
-void KeptBounds::reserve(const std::vector<CurveView>& curves, std::ptrdiff_t dim) {
-    const auto count = static_cast<std::ptrdiff_t>(curves.size());
-    std::ptrdiff_t boxes = 0;
-    for (const CurveView& curve : curves) boxes += KeptBoxes::count(curve.size(), dim);
-    curves_.make_room(count);
-    numbers_.make_room(count * numbers_of(dim));
-    boxes_.make_room(boxes);
-}
-
-void KeptBounds::keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrder order) {
-    const BoxTree tree(packed, order);
-    dim_ = packed.dim();
-    const std::ptrdiff_t box_numbers = KeptBoxes::count(packed.size(), dim_);
-    numbers_.make_room(numbers_of(dim_));
-    boxes_.make_room(box_numbers);
-    double* const numbers = numbers_.append(numbers_of(dim_));
-    std::uint16_t* const boxes = boxes_.append(box_numbers);
-    numbers[0] = Q.largest;
-    write_summary(tree, numbers + 1);
-    KeptBoxes::write(tree, boxes);
-    curves_.push_back({packed.size(), numbers, boxes});
-}
-
-void KeptBounds::make_room(const KeptBounds& others) {
-    if (curves_.size() == 0) return;
-    curves_.make_room(others.curves_.size());
-    numbers_.make_room(others.numbers_.size());
-    boxes_.make_room(others.boxes_.size());
-}
-
-void KeptBounds::take(KeptBounds& others) noexcept {
-    if (curves_.size() == 0) {
-        curves_.take(others.curves_);
-        std::swap(numbers_, others.numbers_);
-        std::swap(boxes_, others.boxes_);
-        return;
-    }
-    for (std::ptrdiff_t j = 0; j < others.curves_.size(); ++j) {
-        const KeptCurve& curve = others.curves_[j];
-        const std::ptrdiff_t box_numbers = KeptBoxes::count(curve.points, others.dim_);
-        double* const numbers = numbers_.append(numbers_of(others.dim_));
-        std::uint16_t* const boxes = boxes_.append(box_numbers);
-        std::copy_n(curve.numbers, numbers_of(others.dim_), numbers);
-        std::copy_n(curve.boxes, box_numbers, boxes);
-        curves_.push_back({curve.points, numbers, boxes});
-    }
-    others.curves_.clear();
-    others.numbers_ = {};
-    others.boxes_ = {};
-}
-
 PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, const CheckedCurve& P,
                        const PackedCurve& packed)
     : options_(options),
       kept_(kept),
       P_(packed),
       metric_(canonical_metric(options.ground, packed.dim())),
-      box_metric_(metric_of_boxes(metric_)),
-      kernel_(active_level().kernels->least(box_metric_, packed.dim())),
+      kernel_(active_level().kernels->least(metric_of_boxes(metric_), packed.dim())),
       extremes_(active_level().kernels->extremes),
-      largest_(P.largest),
       tree_(packed, PointOrder::forward),
-      summary_(static_cast<std::size_t>(4 * packed.dim())),
+      first_(options, kept, P, tree_),
       they_add_(is_symmetric2()) {
-    write_summary(tree_, summary_.data());
     if (!is_banded_line()) return;
     reversed_.reserve(packed.size() + kernels::padding);
     std::reverse_copy(packed.data(), packed.data() + packed.size(), reversed_.data());
     std::fill_n(reversed_.data() + packed.size(), kernels::padding, 0.0);
-}
-
-bool PairBounds::is_bounded(const KeptCurve& curve) const noexcept {
-    return kernel_ != nullptr && RangeScale(std::max(largest_, curve.largest())).is_identity();
-}
-
-void PairBounds::finish(double* bounds, std::ptrdiff_t count) const noexcept {
-    if (box_metric_ == metric_) return;
-    active_level().kernels->arcs(bounds, count, options_.ground.parameter());
-}
-
-template <class Norm>
-double PairBounds::quick_bound(const KeptCurve& curve) const noexcept {
-    if (!is_bounded(curve)) return 0.0;
-    const std::ptrdiff_t dim = tree_.dim();
-    const double* const p = summary_.data();
-    const double* const q = curve.summary();
-    const double first = options_.open_begin ? 0.0 : distance<Norm>(p, q, dim);
-    const double last = options_.open_end ? 0.0 : distance<Norm>(p + dim, q + dim, dim);
-    // Some point of the one curve lies so far beyond all points of the other.
-    double beyond = 0.0;
-    for (std::ptrdiff_t c = 2 * dim; c < 3 * dim; ++c) {
-        const double low = q[c] - p[c], high = p[c + dim] - q[c + dim];
-        beyond = std::max(beyond, std::max(low, high));
-        if (!is_open()) beyond = std::max(beyond, std::max(-low, -high));
-    }
-    const bool is_one_cell = tree_.size() == 1 && curve.points == 1;
-    const bool is_sum = !is_frechet() && !is_one_cell;
-    double bounds[] = {first, last, Norm::finish(Norm::add(0.0, beyond))};
-    if (is_sum) {
-        finish(bounds, 3);
-        bounds[0] += bounds[1];
-    }
-    double bound = *std::max_element(bounds, bounds + 3);
-    if (!is_sum) finish(&bound, 1);
-    return bound / options_.divisor(tree_.size(), curve.points);
-}
-
-void PairBounds::quick(double* bounds, std::ptrdiff_t count) const {
-    std::fill_n(bounds, count, 0.0);
-    with_norm(box_metric_, [&](auto norm) {
-        kept_.in_parts(count, [&](const KeptCurve* curves, std::ptrdiff_t part) {
-            for (std::ptrdiff_t k = 0; k < part; ++k) {
-                *bounds++ = quick_bound<decltype(norm)>(curves[k]);
-            }
-        });
-    });
 }
 
 void BandedBoxes::assign(std::ptrdiff_t count, PointOrder order, std::ptrdiff_t size,
@@ -277,7 +157,7 @@ double PairBounds::run_bound(std::ptrdiff_t j, int level) {
         row_terms[a] = least;
     }
     for (double& term : run_terms_) term = Norm::finish(term);
-    finish(run_terms_.data(), rows + columns);
+    first_.finish(run_terms_.data(), rows + columns);
     if (is_frechet()) return *std::max_element(run_terms_.begin(), run_terms_.end());
     const double rest_of_rows = sum_but_one(row_terms, rows, row_points, n);
     if (is_open()) return combined(rest_of_rows, 0.0, row_terms[0], 0.0);
@@ -312,13 +192,14 @@ double PairBounds::undivided(std::ptrdiff_t j, const PackedCurve& q, int level) 
     if (is_line() && level == 1) return column_bound(j, q);
     if (is_line() && level == point_level) return 0.0;  // it was level 2
     if (is_line() || level == point_level) return point_bound(j, q);
-    return with_norm(box_metric_, [&](auto norm) { return run_bound<decltype(norm)>(j, level); });
+    return with_norm(first_.box_metric(),
+                     [&](auto norm) { return run_bound<decltype(norm)>(j, level); });
 }
 
 double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
     const std::ptrdiff_t n = P_.size(), m = q.size();
     const bool is_short = n * m < (is_banded_line() ? fewest_cells_of_lines : fewest_cells);
-    if (!is_bounded(kept_[j]) || is_short) return 0.0;
+    if (!is_bounded(j) || is_short) return 0.0;
     const double bound = undivided(j, q, level);
     if (is_frechet()) return bound;
     return bound * CostSums::slack(n, m) / options_.divisor(n, m);
@@ -333,7 +214,7 @@ void PairBounds::compute_terms(const PackedCurve& points, kernels::PointsAndBoxe
     boxes.dim = points.dim();
     boxes.least = terms.data();
     kernel_(boxes);
-    finish(terms.data(), points.size());
+    first_.finish(terms.data(), points.size());
 }
 
 void PairBounds::compute_row_terms(std::ptrdiff_t j, const PackedCurve& q) {
@@ -402,7 +283,7 @@ BoxLevel PairBounds::point_level_boxes() const noexcept {
 std::optional<CostToGo> PairBounds::cost_to_go(std::ptrdiff_t j, const PackedCurve& q,
                                                double most) {
     const std::ptrdiff_t n = P_.size(), m = q.size();
-    if (!is_bounded(kept_[j]) || n * m < fewest_cells || n * m >= most_narrowed_cells ||
+    if (!is_bounded(j) || n * m < fewest_cells || n * m >= most_narrowed_cells ||
         options_.open_begin) {
         return std::nullopt;
     }

@@ -35,9 +35,10 @@
 
 #include "curves/checks.hpp"
 #include "runtime/aligned_buffer.hpp"
-#include "runtime/growing_list.hpp"
 #include "warping/box_tree.hpp"
 #include "warping/cost_sums.hpp"
+#include "warping/first_bounds.hpp"
+#include "warping/kept_bounds.hpp"
 #include "warping/kept_boxes.hpp"
 #include "warping/line_table.hpp"
 #include "warping/matched_values.hpp"
@@ -45,54 +46,6 @@
 #include "warping/warping_problem.hpp"
 
 namespace curvewise::warping {
-
-using curves::CheckedCurve;
-
-// The stored data of a Q besides its points.
-struct KeptCurve {
-    std::ptrdiff_t points;
-    const double* numbers;  // the largest |coordinate|, then the summary
-    const std::uint16_t* boxes;
-
-    double largest() const noexcept { return numbers[0]; }
-    // The first point, the last, the lowest coordinates, the highest.
-    const double* summary() const noexcept { return numbers + 1; }
-};
-
-// That of every Q. While one thread adds more, others may read what they know of.
-class KeptBounds {
-   public:
-    // For these curves, packed with `dim` coordinates.
-    void reserve(const std::vector<CurveView>& curves, std::ptrdiff_t dim);
-    void keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrder order);
-    // Adds those of `others`, for which room was made, and leaves it empty.
-    void make_room(const KeptBounds& others);
-    void take(KeptBounds& others) noexcept;
-
-    const KeptCurve& operator[](std::ptrdiff_t j) const noexcept { return curves_[j]; }
-    // Calls use(curves, their number) for consecutive parts of the first `count` curves.
-    template <class Use>
-    void in_parts(std::ptrdiff_t count, Use&& use) const {
-        curves_.in_parts(count, use);
-    }
-    // The boxes of a level above 0, in `room`.
-    BoxLevel boxes(std::ptrdiff_t j, int level, std::ptrdiff_t dim, BoxRoom& room) const {
-        const KeptCurve& curve = curves_[j];
-        return KeptBoxes{j, curve.points, curve.boxes}.read(limit_of(level),
-                                                            curve.summary() + 2 * dim, dim, room);
-    }
-    // The index of a level of the bounds in KeptBoxes::most_boxes: the finest boxes are the last
-    // level's.
-    static constexpr std::size_t limit_of(int level) noexcept {
-        return static_cast<std::size_t>(3 - level);
-    }
-
-   private:
-    std::ptrdiff_t dim_ = 0;  // of those that keep() has added
-    runtime::GrowingList<KeptCurve> curves_;
-    runtime::GrowingRuns<double> numbers_;
-    runtime::GrowingRuns<std::uint16_t> boxes_;
-};
 
 // The boxes of one curve that the band leaves each point of the other, kept while the numbers of
 // points do not change.
@@ -122,10 +75,10 @@ class PairBounds {
     PairBounds(const WarpingOptions& options, const KeptBounds& kept, const CheckedCurve& P,
                const PackedCurve& packed);
 
-    // Those of level 0, of the first `count` kept curves.
-    void quick(double* bounds, std::ptrdiff_t count) const;
+    // Level 0.
+    const FirstBounds& first() const noexcept { return first_; }
     // Whether the bound of curve j includes the distances of the ends.
-    bool has_looked_at_ends(std::ptrdiff_t j) const noexcept { return is_bounded(kept_[j]); }
+    bool has_looked_at_ends(std::ptrdiff_t j) const noexcept { return is_bounded(j); }
     // That of a level above 0 and curve j, whose points are `q`.
     double refined(std::ptrdiff_t j, const PackedCurve& q, int level);
     // The least cost of the rest of a path, for a sweep that skips cells above `most`, in the unit
@@ -141,11 +94,11 @@ class PairBounds {
     }
 
    private:
-    bool is_bounded(const KeptCurve& curve) const noexcept;
+    bool is_bounded(std::ptrdiff_t j) const noexcept {
+        return first_.is_bounded(kept_[j].largest());
+    }
     bool is_frechet() const noexcept { return options_.recurrence == kernels::Recurrence::frechet; }
     bool is_open() const noexcept { return options_.open_begin || options_.open_end; }
-    template <class Norm>
-    double quick_bound(const KeptCurve& curve) const noexcept;
     template <class Norm>
     double run_bound(std::ptrdiff_t j, int level);
     double point_bound(std::ptrdiff_t j, const PackedCurve& q);
@@ -168,8 +121,6 @@ class PairBounds {
     // The distances of `points` to the nearest of these boxes.
     void compute_terms(const PackedCurve& points, kernels::PointsAndBoxes boxes,
                        AlignedBuffer& terms) const;
-    // Makes bounds of distances of boxes.
-    void finish(double* bounds, std::ptrdiff_t count) const noexcept;
     // The larger of the costs of P's parts and of Q's, or their sum.
     double combined(double rows, double columns, double first_row, double first_column) const;
 
@@ -177,12 +128,10 @@ class PairBounds {
     const KeptBounds& kept_;
     const PackedCurve& P_;
     Metric metric_;
-    Metric box_metric_;
     kernels::LeastFunction kernel_;  // null if bounds do not exist
     kernels::ExtremesFunction extremes_;
-    double largest_;
     BoxTree tree_;
-    std::vector<double> summary_;
+    FirstBounds first_;
     // The most recent terms of the last level: P's points in order or in reverse, Q's in their
     // stored order.
     AlignedBuffer row_terms_;

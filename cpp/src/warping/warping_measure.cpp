@@ -123,6 +123,10 @@ class WarpingMeasure::Bounds {
         kept_.reserve(curves, on_sphere ? curves::sphere_dim : curves[0].dim());
     }
     void keep(const PreparedQ& Q) { kept_.keep(Q.checked, Q.packed, PointOrder::reversed); }
+    pairwise::RowShape row_shape(const WarpingMeasure& measure) const noexcept {
+        return kept_.row_shape(measure.options_.ground);
+    }
+    void write_row(std::ptrdiff_t j, double* row) const noexcept { kept_.write_row(j, row); }
     void make_room(const Bounds& others) { kept_.make_room(others.kept_); }
     void take(Bounds& others) noexcept { kept_.take(others.kept_); }
 
@@ -132,7 +136,16 @@ class WarpingMeasure::Bounds {
             : measure_(measure),
               P_(P),
               bounds_(measure.options_, bounds.kept_, P.checked, P.packed) {}
-        void quick(double* bounds, std::ptrdiff_t count) const { bounds_.quick(bounds, count); }
+        void quick(std::ptrdiff_t first, std::ptrdiff_t count, double* bounds) const {
+            bounds_.first().quick(first, count, bounds);
+        }
+        void quick(std::ptrdiff_t first, const pairwise::BoundTree::Leaf& leaf,
+                   double* bounds) const {
+            bounds_.first().quick(first, leaf, bounds);
+        }
+        void of_boxes(const double* boxes, std::ptrdiff_t count, double* bounds) const {
+            bounds_.first().of_boxes(boxes, count, bounds);
+        }
         double refined(std::ptrdiff_t j, const PreparedQ& Q, int level) {
             return bounds_.refined(j, Q.packed, level);
         }

@@ -81,7 +81,8 @@ class Index:
     Notes
     -----
     Curves are processed in the order of lower bounds of their distances. Only those whose bound is
-    at most the k-th best distance so far are computed, up to that cutoff. See Seidl & Kriegel,
+    at most the k-th best distance so far are computed, up to that cutoff. From 256 curves on, trees
+    over the first bounds skip most curves that are far. See Seidl & Kriegel,
     "Optimal multi-step k-nearest neighbor search", 1998, and Keogh & Ratanamahatana (2005). The
     index computes few distances if the curves form groups, and all if they are equally distant.
     Lower bounds exist for dtw, frechet and frechet_continuous. The other measures, and dtw and
@@ -358,7 +359,8 @@ class Index:
 
         Notes
         -----
-        Time: for each query a cheap bound of every curve, and O(n m) for each remaining pair.
+        Time: for each query a cheap bound of every curve that the trees do not skip, and O(n m) for
+        each remaining pair.
         Threads share the queries: a single query is not divided. Ctrl-C as for
         :func:`curvewise.cdist`.
         """

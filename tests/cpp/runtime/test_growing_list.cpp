@@ -38,13 +38,15 @@ void check_elements(const GrowingList<Element>& list, std::ptrdiff_t size) {
     CHECK_EQUAL(list.size(), size);
     CHECK_EQUAL(alive, static_cast<int>(size));
     for (std::ptrdiff_t i = 0; i < size; ++i) CHECK_EQUAL(list[i].value(), i);
-    for (const std::ptrdiff_t count : {std::ptrdiff_t{0}, size / 3, size}) {
-        std::ptrdiff_t i = 0;
-        list.in_parts(count, [&](const Element* elements, std::ptrdiff_t part) {
-            CHECK(part > 0);
-            for (std::ptrdiff_t k = 0; k < part; ++k) CHECK_EQUAL(elements[k].value(), i++);
-        });
-        CHECK_EQUAL(i, count);
+    for (const std::ptrdiff_t first : {std::ptrdiff_t{0}, size / 4, size / 2, size}) {
+        for (const std::ptrdiff_t end : {first, (first + size) / 2, size}) {
+            std::ptrdiff_t i = first;
+            list.in_parts(first, end - first, [&](const Element* elements, std::ptrdiff_t part) {
+                CHECK(part > 0);
+                for (std::ptrdiff_t k = 0; k < part; ++k) CHECK_EQUAL(elements[k].value(), i++);
+            });
+            CHECK_EQUAL(i, end);
+        }
     }
 }
 
@@ -82,7 +84,7 @@ void blocks_are_few() {
     GrowingList<int> list;
     for (int i = 0; i < 100000; ++i) list.push_back(i);
     int parts = 0;
-    list.in_parts(100000, [&](const int*, std::ptrdiff_t) { ++parts; });
+    list.in_parts(0, 100000, [&](const int*, std::ptrdiff_t) { ++parts; });
     CHECK(parts <= 18);
     CHECK_EQUAL(list[99999], 99999);
 }

@@ -43,22 +43,53 @@ Curve on_globe(const Curve& curve) {
     return points;
 }
 
+// The first bounds of all targets, the same from trees. No bound of a box is above those in it.
+std::vector<double> checked_first_bounds(pairwise::TargetQuery& query, const pairwise::Seen& seen) {
+    std::vector<double> quick(static_cast<std::size_t>(seen.size));
+    query.quick(0, seen.size, quick.data());
+    if (seen.forest == nullptr) return quick;
+    for (const auto& [first, tree] : seen.forest->trees()) {
+        std::ptrdiff_t held = 1;
+        for (int level = 0; level < tree->levels(); ++level) {
+            for (std::ptrdiff_t b = 0; b < tree->boxes(level); ++b) {
+                double of_box = -1.0;
+                query.of_boxes(tree->box(level, b), 1, &of_box);
+                CHECK(of_box >= 0.0);
+                for (std::ptrdiff_t l = b * held; l < (b + 1) * held && l < tree->boxes(0); ++l) {
+                    const pairwise::BoundTree::Leaf leaf = tree->leaf(l);
+                    double bounds[pairwise::BoundTree::leaf_rows];
+                    query.quick(first, leaf, bounds);
+                    for (std::ptrdiff_t k = 0; k < leaf.count; ++k) {
+                        CHECK_EQUAL(bounds[k],
+                                    quick[static_cast<std::size_t>(first + leaf.places[k])]);
+                        CHECK(of_box <= bounds[k]);
+                    }
+                }
+            }
+            held *= pairwise::BoundTree::fan;
+        }
+    }
+    return quick;
+}
+
 template <class Options>
 void bounds_hold(const Options& options, const std::vector<Curve>& curves) {
     const auto measure = pairwise::batch_measure(options);
     const bool on_sphere = measure->requirements().on_sphere;
     const auto targets = measure->make_targets();
     Poller poller(nullptr);
-    targets->reserve(test::views_of(curves), true);
-    for (const Curve& Q : curves) {
-        targets->add(CheckedCurve(Q, "Q", poller, on_sphere), poller);
+    // Each several times, so that there is a tree.
+    std::vector<CurveView> all;
+    while (all.size() < static_cast<std::size_t>(pairwise::BoundForest::fewest_rows + 40)) {
+        for (const Curve& Q : curves) all.emplace_back(Q);
     }
+    targets->reserve(all, true);
+    for (const CurveView& Q : all) targets->add(CheckedCurve(Q, "Q", poller, on_sphere), poller);
+    targets->plant(poller);
     const auto memory = targets->make_memory();
     for (const Curve& P : curves) {
-        const auto query =
-            targets->query(CheckedCurve(P, "P", poller, on_sphere), targets->seen(), poller);
-        std::vector<double> quick(curves.size());
-        query->quick(quick.data());
+        const auto query = targets->query(CheckedCurve(P, "P", poller, on_sphere), poller);
+        const std::vector<double> quick = checked_first_bounds(*query, targets->seen());
         for (std::size_t j = 0; j < curves.size(); ++j) {
             const check::Note note(test::described(P, curves[j]));
             const auto target = static_cast<std::ptrdiff_t>(j);
@@ -135,6 +166,26 @@ void bounds_of_leashes_hold() {
     }
 }
 
+// Curves beyond the usual range of squares, next to others in the same boxes, and of zeros.
+void bounds_hold_beyond_the_usual_range() {
+    Random random(14);
+    for (const std::ptrdiff_t dim : {1, 2}) {
+        for (int i = 0; i < 10; ++i) {
+            std::vector<Curve> curves;
+            for (const int power : {0, 0, 0, 600, -600, -1200}) {
+                curves.push_back(some_curve(random, dim).times_power_of_two(power));
+            }
+            bounds_hold(DtwOptions{}, curves);
+            bounds_hold(FrechetOptions{}, curves);
+            bounds_hold(FrechetContinuousOptions{}, curves);
+            curves.erase(curves.begin() + 3);
+            bounds_hold(DtwOptions{}, curves);
+            curves.erase(curves.begin(), curves.begin() + 3);
+            bounds_hold(FrechetOptions{}, curves);
+        }
+    }
+}
+
 void bounds_of_every_metric_hold() {
     Random random(11);
     std::vector<Metric> metrics(oracle::metrics.begin(), oracle::metrics.end());
@@ -179,5 +230,6 @@ void bounds_of_every_metric_hold() {
 int main() {
     return check::run({{"bounds of leashes hold", bounds_of_leashes_hold},
                        {"bounds of lines hold", bounds_of_lines_hold},
+                       {"bounds hold beyond the usual range", bounds_hold_beyond_the_usual_range},
                        {"bounds of every metric hold", bounds_of_every_metric_hold}});
 }
