@@ -3,13 +3,14 @@
 Three laws answer a stress with a strain: Ramberg-Osgood's with Masing's rule, a cubic spring, and a
 sum of a linear part and a hyperbolic sine with Masing's rule. Noise is normal, 0.5 % of the extent
 in each coordinate. `sum_of_squares` compares strains at equal times, so that noise in y does not
-reach it and only noise in x is counted. Each search begins at the truth. Prints and writes for each
-parameter the share of the intervals of 95 % that hold the truth, and the median standard error in
-units of the deviation of the estimates; "-" if no estimate moves.
+reach it and only noise in x is counted. Searches begin at the truth, except by dtw with noise in x:
+they would halt near it. Prints and writes for each parameter the share of the intervals of 95 %
+that hold the truth, and the median standard error in units of the deviation of the estimates; "-"
+if no estimate moves.
 
     python benchmarks/validation/driven_by_stress.py --sets 60
 
-A set takes 0.1 to 0.4 s. The estimates of sets that are done are kept in --records.
+A set takes 0.1 to 0.4 s, by dtw 2 s. The estimates of sets that are done are kept in --records.
 """
 
 from __future__ import annotations
@@ -30,8 +31,9 @@ from curvewise.calibration import NoisyTestWarning, TrustRegion, identify
 
 NOISES = {"x": (0.005, 0.0), "y": (0.0, 0.005), "both": (0.005, 0.005)}
 MEASURES = ("area", "dtw", "sum_of_squares")
-# Several starts: near the truth noise leaves shallow local minima, and one start halts early.
-METHODS = {"area": TrustRegion(starts=2, gain=1e-6), "dtw": TrustRegion(starts=2, gain=1e-6)}
+# Near the truth noise leaves shallow local minima. By area two starts leave them. By dtw with noise
+# in x the default search, from the middle of the bounds, ends lower than searches from the truth.
+NEAR_THE_TRUTH = {"method": TrustRegion(starts=2, gain=1e-6)}
 TURNS = (0.0, 400.0, -400.0, 400.0)  # MPa
 LEG = 40  # steps from one to the next
 
@@ -98,18 +100,18 @@ def judged(law: str, measure: str, noise: str, seed: int) -> list[list[float]]:
     test = curve + np.random.default_rng(seed).normal(size=curve.shape) * (
         NOISES[noise] * np.ptp(curve, axis=0)
     )
-    options: dict = {}
+    options: dict = {} if measure == "dtw" and noise != "y" else {"start": truth}
+    if options and measure != "sum_of_squares":
+        options |= NEAR_THE_TRUTH
     run = model
     if measure == "sum_of_squares":  # it compares the second coordinate at equal times
-        options = {"abscissa": 2}
+        options["abscissa"] = 2
         test, run = as_times(test), lambda p: as_times(model(p))
     found = identify(
         run,
         test,
         bounds,
         measure=measure,
-        start=truth,
-        method=METHODS.get(measure, "auto"),
         progress=False,
         **options,
     )
