@@ -114,7 +114,8 @@ void respond(const Material& material, const Parameters& parameters, double most
             if (by_stress[i]) found = strain;
             answer[i] = found.value;
             if (slopes == nullptr) continue;
-            check_slopes(i, found.slopes.data(), first, width, parameters);
+            check_slopes(by_stress[i] ? "strain at stress" : "stress at strain", i,
+                         found.slopes.data(), first, width, parameters);
             std::copy_n(found.slopes.begin(), width,
                         slopes + static_cast<std::size_t>(i) * count + first);
         }

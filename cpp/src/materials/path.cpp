@@ -52,12 +52,12 @@ void refuse_target(std::ptrdiff_t i, double target, double reached) {
                                 " with these parameters; hardening ends at " + text_of(reached));
 }
 
-void check_slopes(std::ptrdiff_t i, const double* slopes, std::size_t first, std::size_t width,
-                  const Parameters& parameters) {
+void check_slopes(const char* place, std::ptrdiff_t i, const double* slopes, std::size_t first,
+                  std::size_t width, const Parameters& parameters) {
     for (std::size_t k = 0; k < width; ++k) {
         if (std::isfinite(slopes[k])) continue;
-        throw NoStress{"the slope of the stress at strain[" + std::to_string(i) + "] by " +
-                           parameters.name(first + k) + " is " + text_of(slopes[k]),
+        throw NoStress{std::string("the slope of the ") + place + "[" + std::to_string(i) +
+                           "] by " + parameters.name(first + k) + " is " + text_of(slopes[k]),
                        parameters.name(first + k)};
     }
 }

@@ -113,9 +113,10 @@ void check_given(const double* given, const bool* by_stress, std::ptrdiff_t n);
 // Throws: hardening ends before the stress that is given.
 [[noreturn]] void refuse_target(std::ptrdiff_t i, double target, double reached);
 
-// Throws NoStress where a slope of stress i is not finite: `slopes` by the parameters from `first`.
-void check_slopes(std::ptrdiff_t i, const double* slopes, std::size_t first, std::size_t width,
-                  const Parameters& parameters);
+// Throws NoStress where a slope is not finite: `slopes` of the answer at place i, such as "stress
+// at strain", by the parameters from `first`.
+void check_slopes(const char* place, std::ptrdiff_t i, const double* slopes, std::size_t first,
+                  std::size_t width, const Parameters& parameters);
 
 // What a sum of terms, all at least 0, allows a stress to be: with rounding, and finite.
 inline double with_rounding(double sum, double relative) {
@@ -162,7 +163,8 @@ void integrate(const Material& material, const Parameters& parameters, double mo
                                 double sum = 0.0;
                                 for (const double slope : found.slopes) sum += slope;
                                 if (!std::isfinite(sum)) {
-                                    check_slopes(i, found.slopes.data(), first, width, parameters);
+                                    check_slopes("stress at strain", i, found.slopes.data(), first,
+                                                 width, parameters);
                                 }
                                 stress[i] = found.value;
                                 std::copy_n(found.slopes.begin(), width,

@@ -203,6 +203,20 @@ def test_descent_over_kinks_and_along_a_side():
     assert kinked(best)[0] < 1.002 * min(kinked(point)[0] for point in grid)
 
 
+@pytest.mark.parametrize("count", [2, 3, 5])
+def test_descent_leaves_a_start_on_kinks(count):
+    """The start has the best value of all coordinates but the first."""
+    lowest = np.full(count, 0.5)
+    lowest[0] = 0.7
+    factors = np.geomspace(1.0, 100.0, count)
+
+    def kinked(point):
+        return float(factors @ np.abs(point - lowest)), factors * np.sign(point - lowest + 1e-300)
+
+    best = nonsmooth_descent(kinked, np.full(count, 0.5), negligible=1e-9, most=200)
+    assert kinked(best)[0] < 0.002
+
+
 @pytest.mark.parametrize("most", [1, 2, 7])
 def test_descent_keeps_to_its_evaluations(most):
     calls = []

@@ -340,7 +340,7 @@ def test_flat_ground_is_said_and_searched():
     bounds = {"yield": (200, 500), "C": (20e3, 200e3), "gamma": (100, 1000)}
     with pytest.warns(match="frechet is decided by the one point"):
         found = quiet_identify(
-            loop, experiment, bounds, measure="frechet", method=TrustRegion(most_starts=4)
+            loop, experiment, bounds, measure="frechet", method=TrustRegion(most_starts=12)
         )
     assert not found.converged
     assert "starts within 1 % of the best" in found.message

@@ -211,3 +211,12 @@ def test_a_slope_that_overflows_is_refused_by_name() -> None:
     assert np.isfinite(material.stress([-0.0072], constants)).all()
     with pytest.raises(ValueError, match=r"E is 4.16267e-97; .* the slope of the stress at strain"):
         material.stress_and_slopes([-0.0072], constants)
+
+
+def test_a_slope_that_overflows_at_a_given_stress_is_refused_by_its_place() -> None:
+    material = ChabocheVoce(2, "decaying")
+    numbers = (4.16267e-97, 1.1e-135, 2.7e-6, 9.8e-126, 2.3e144, 1.1e6, 1.7e-122, 4.4e136, 9.5e90)
+    constants = dict(zip(material.names, (*numbers, 1.3e133), strict=True))
+    (stress,) = material.stress([-0.0072], constants)
+    with pytest.raises(ValueError, match=r"the slope of the strain at stress\[0\] by"):
+        material.response_and_slopes([stress], True, constants)

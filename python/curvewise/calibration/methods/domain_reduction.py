@@ -26,9 +26,11 @@ import numpy as np
 from ..._extras import required
 from ...curves.inputs import Array
 from ..problem.ledger import Course, Finish, Ledger
+from ..records.evaluation import Evaluation
 from ..surfaces.inner_search import CurveSearch
 from ..surfaces.surfaces import regression
 from .method import Method, with_other_defaults
+from .starts import WITHIN, nothing_beside
 
 __all__ = ["SDRM"]
 
@@ -107,9 +109,23 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
             size = size * self._contraction(last_move, move)
             centre = target
             if size.max() < self.tol:
-                yield centre[np.newaxis]
-                return Finish(True, f"all ranges below {self.tol:g} of the bounds")
+                (end,) = yield centre[np.newaxis]
+                return self._finish(ledger, end)
         return Finish(False, f"maxiter = {self.maxiter} iterations")
+
+    def _finish(self, ledger: Ledger, end: Evaluation) -> Finish:
+        """Return the ending; the ranges also vanish at a place above an earlier run."""
+        message = f"all ranges below {self.tol:g} of the bounds"
+        first = next(run.value for run in ledger.done if not run.failed)
+        is_best = end.value <= ledger.best.value * (1.0 + WITHIN) + nothing_beside(first)
+        if is_best and not end.failed:
+            return Finish(True, message)
+        above = "failed" if end.failed else f"has {end.value:.3g}"
+        return Finish(
+            False,
+            f"{message}, but the last run {above}, and the best one {ledger.best.value:.3g}",
+            reason='the method "sdrm" ended away from the best run; use another method or start',
+        )
 
     def _contraction(self, last_move: Array, move: Array) -> Array:
         """Return by what every range is multiplied, of its last two moves in [-1, 1]."""

@@ -23,6 +23,7 @@ from ..records.search_record import Agreement
 
 __all__ = [
     "NOISIEST",
+    "WITHIN",
     "End",
     "are_alike",
     "check_regions",
@@ -39,7 +40,7 @@ __all__ = [
 _QUARTERS = 4
 _DRAWN = (0.1, 0.9)  # where starts are, between the bounds
 _FEWEST = 3  # starts that have to agree
-_ALIKE = 0.01  # ends within this fraction above the best value agree
+WITHIN = 0.01  # ends within this fraction above the best value agree
 NOISIEST = 0.05  # and by this one where the model's own noise moves values so far
 # Ends also agree if their difference is negligible, or at most the square of that fraction of the
 # total reduction. Fits to curves of the model itself need this.
@@ -108,7 +109,7 @@ def are_alike(ends: Sequence[End], negligible: float, among: Sequence[End]) -> i
     """Return how many of some starts have ended as low as the best of all."""
     best = min(ends, key=lambda end: end.value)
     noise = min(2.0 * best.noise, NOISIEST * best.value)
-    most = best.value + max(_ALIKE * best.value, noise)
+    most = best.value + max(WITHIN * best.value, noise)
     most = max(most, _nothing(ends, negligible))
     return sum(end.value <= most for end in among)
 
@@ -250,7 +251,7 @@ def _too_few(agreement: Agreement) -> str:
 
 def nothing_beside(first: float) -> float:
     """Return the negligible difference relative to the first value of a start."""
-    return _ALIKE**2 * first
+    return WITHIN**2 * first
 
 
 def _nothing(ends: Sequence[End], negligible: float) -> float:

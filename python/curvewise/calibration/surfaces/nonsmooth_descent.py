@@ -3,22 +3,25 @@
 The BFGS method with a line search that requires only a sufficient decrease and a sufficient
 increase of the slope (weak Wolfe conditions). It therefore descends on functions that are smooth
 almost everywhere, such as sums of absolute values, where line searches for smooth functions fail.
-If it stops, possibly at a kink, it restarts with smaller steps, at most twice. Coordinates that
-press against a side of the cube are fixed there. Cost: 20 to 100 evaluations for up to ten
-coordinates.
+A search that cannot leave its start may stand on a kink. Its next direction is then the shortest
+vector of the convex hull of the gradients on both sides, which is a direction along the kink. If
+the search stops later, it restarts with smaller steps, at most twice. Coordinates that press
+against a side of the cube are fixed there. Cost: 20 to 100 evaluations for up to ten coordinates.
 
 A. S. Lewis, M. L. Overton, "Nonsmooth optimization via quasi-Newton methods", Math. Program. 141
-(2013) 135-163.
+(2013) 135-163. P. Wolfe, "A method of conjugate subgradients for minimizing nondifferentiable
+functions", Math. Program. Study 3 (1975) 145-173.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from ..._extras import required
 from ...curves.inputs import Array
 from .bfgs import DECREASE, has_curvature, updated
 
@@ -68,16 +71,19 @@ def nonsmooth_descent(
 
 
 class _Counted:
-    """The function with a limit of evaluations, and its lowest place so far."""
+    """The function with a limit of evaluations, its first place and its lowest one so far."""
 
     def __init__(self, function: ValueAndGradient, most: int) -> None:
         self._function, self.left = function, most
+        self.first: _Place | None = None
         self.best: _Place | None = None
 
     def __call__(self, point: Array) -> _Place:
         self.left -= 1
         place = _Place(point, *self._function(point))
-        if self.best is None or place.value < self.best.value:
+        if self.first is None or self.best is None:
+            self.first = self.best = place
+        elif place.value < self.best.value:
             self.best = place
         return place
 
@@ -86,9 +92,10 @@ def _round(function: _Counted, place: _Place, length: float, negligible: float) 
     """Go down from a place, with a first step of a length; return the lowest place of all."""
     k = place.point.size
     inverse: Array | None = None  # of the Hessian
+    beyond: list[Array] = []  # gradients where no step from the start has led down
     small = 0
     while function.left > 0 and small < _PATIENCE:
-        point, gradient = place.point, place.gradient
+        point, gradient = place.point, _shortest([place.gradient, *beyond])
         free = ~(((point <= 0.0) & (gradient > 0.0)) | ((point >= 1.0) & (gradient < 0.0)))
         norm = float(np.linalg.norm(gradient[free]))
         if norm == 0.0:
@@ -97,10 +104,14 @@ def _round(function: _Counted, place: _Place, length: float, negligible: float) 
         direction = -(scaled * np.outer(free, free)) @ gradient
         if -float(gradient @ direction) <= max(negligible, _ENOUGH * 1e-2 * abs(place.value)):
             break
-        trial = _searched(function, place, direction, free)
-        if trial is None:
-            break
-        step, change = trial.point - point, trial.gradient - gradient
+        trial, is_lower = _searched(function, place, direction, free)
+        if not is_lower:
+            beyond.append(trial.gradient)
+            if place is not function.first or len(beyond) > k:
+                break
+            continue
+        step, change = trial.point - point, trial.gradient - place.gradient
+        beyond.clear()
         if has_curvature(step, change, _CURVATURE):
             if inverse is None:  # the first is of the right size
                 scaled = np.eye(k) * (float(step @ change) / float(change @ change))
@@ -114,10 +125,10 @@ def _round(function: _Counted, place: _Place, length: float, negligible: float) 
 
 def _searched(
     function: _Counted, place: _Place, direction: Array, free: npt.NDArray[np.bool_]
-) -> _Place | None:
+) -> tuple[_Place, bool]:
     """Return a place along a direction that meets Wolfe's weak conditions, or the last tried.
 
-    Return None if no place along it has a lower value.
+    Also return whether any place along it has a sufficiently lower value.
     """
     slope = float(place.gradient @ direction)
     low, high, length = 0.0, np.inf, 1.0
@@ -131,8 +142,22 @@ def _searched(
         elif not is_bent and float(trial.gradient @ direction) < _TURN * slope:
             low = length
         else:
-            return trial
+            return trial, True
         length = 2.0 * length if np.isinf(high) else (low + high) / 2.0
         if function.left <= 0:
             break
-    return trial if low > 0.0 else None
+    return trial, low > 0.0
+
+
+def _shortest(gradients: Sequence[Array]) -> Array:
+    """Return the shortest vector of the convex hull of gradients."""
+    if len(gradients) == 1:
+        return gradients[0]
+    columns = np.column_stack(gradients)
+    heavy = 1e3 * float(np.abs(columns).max())  # holds the sum of the weights at 1
+    equations = np.vstack((columns, np.full(len(gradients), heavy)))
+    weights, _ = required("scipy.optimize").nnls(
+        equations, np.append(np.zeros(len(columns)), heavy)
+    )
+    shortest: Array = columns @ (weights / weights.sum())
+    return shortest
