@@ -102,6 +102,7 @@ class FrechetContinuousMeasure : public pairwise::Distance {
 class FrechetContinuousMeasure::Bounds {
    public:
     static constexpr int levels = 3;
+    static constexpr std::uint64_t format = 0;
     void reserve(const FrechetContinuousMeasure& /*measure*/,
                  const std::vector<CurveView>& curves) {
         kept_.make_room(static_cast<std::ptrdiff_t>(curves.size()));

@@ -34,9 +34,9 @@ using nearest::NeighborSearch;
 using nearest::OpenedIndex;
 using nearest::Queries;
 using nearest::QueryRun;
-using nearest::SavedCurve;
 using nearest::SizeCounts;
 using nearest::TargetIndices;
+using pairwise::PointSource;
 using pairwise::Seen;
 using pairwise::TargetQuery;
 using pairwise::Targets;
@@ -92,12 +92,11 @@ class Index::State {
         Poller poller(control);
         const Caller saving(callers_);
         const IndexView view = this->view();
-        std::vector<SavedCurve> saved;
-        for (const std::ptrdiff_t j : view.targets()) {
-            saved.push_back({targets_->curve(j).curve, indices_[j]});
-        }
+        const std::vector<std::ptrdiff_t> targets = view.targets();
         poller.begin(view.seen.points);
-        save_index(path, saved, indices_[view.seen.size], targets_->layout(), note, poller);
+        nearest::save_index(
+            path, {*targets_, targets, indices_of(targets), indices_[view.seen.size], note},
+            poller);
     }
 
     std::size_t size() const { return static_cast<std::size_t>(view().seen.remaining); }
@@ -184,17 +183,29 @@ class Index::State {
         for (const CurveView& curve : curves) total += curve.size();
         poller.begin(total);
         const bool are_here = opened != nullptr && opened->layout == added->layout();
-        if (opened != nullptr) opened->check_points(poller);
+        std::vector<const double*> bounds(curves.size());
+        if (opened != nullptr) {
+            opened->check_points(poller);
+            bounds = opened->bounds_for(*added);
+        }
         if (are_here) added->hold(opened->file);
-        added->reserve(curves, !are_here);
+        const bool have_bounds = !bounds.empty() && bounds[0] != nullptr;
+        added->reserve(curves, !are_here     ? PointSource::others
+                               : have_bounds ? PointSource::held_with_bounds
+                                             : PointSource::held);
         for (std::size_t i = 0; i < curves.size(); ++i) {
             const std::string name = CurveList(curves, "curves").name_of(i);
             const CurveInDoubles curve(curves[i], poller);
-            const CheckedCurve checked = checked_curve(curve.view(), name, poller);
-            if (are_here) {
-                added->look_at(checked, opened->points[i], poller);
+            if (are_here && !measure_->requirements().on_sphere) {
+                // It was checked before it was written.
+                CheckedCurve checked(curves[i], opened->stored[i].largest, false);
+                checked.name = name;
+                added->look_at(checked, opened->stored[i], bounds[i], poller);
+            } else if (are_here) {
+                added->look_at(checked_curve(curves[i], name, poller), opened->stored[i], nullptr,
+                               poller);
             } else {
-                added->add(checked, poller);
+                added->add(checked_curve(curve.view(), name, poller), poller);
             }
             if (poller.count_steps(curves[i].size())) throw Stopped();
         }

@@ -41,6 +41,11 @@
 //     row_shape(measure)                 the shape of the rows for trees over the first bounds,
 //                                        where there is a Q; its width is 0 for no trees
 //     write_row(j, row)                  that of Q number j
+//   M::Bounds::format                    what files name the kind of the stored data, or 0 where it
+//                                        cannot be stored; otherwise there are
+//     stored_size(points, dim)           how many doubles it takes for a Q
+//     write(j, to)                       writes that of Q number j
+//     look_at(points, dim, stored)       adds what was written, without a copy
 //   M::Bounds::levels                    the number of bounds of a pair, from cheap to expensive
 //   M::Bounds::Query                     of one P: made from (measure, bounds, prepared_p);
 //     quick(first, count, out)           the first bound of each of `count` Qs from `first` on

@@ -62,6 +62,10 @@ struct Seen {
     }
 };
 
+// Where the points of curves are that are added: in memory of others, to be copied; in memory that
+// is held; or there with their bounds.
+enum class PointSource { others, held, held_with_bounds };
+
 // All curves that take Q's place, prepared. What is added stays as it is. So queries may be made,
 // and used, by several threads at once, while one thread adds more: a call has seen() from the
 // thread that adds, and reads nothing behind.
@@ -74,16 +78,24 @@ class Targets {
     Targets& operator=(Targets&&) = delete;
     virtual ~Targets() = default;
 
-    // Prepares for all curves that will be added here, whose points are copied or stay where they
-    // are.
-    virtual void reserve(const std::vector<CurveView>& curves, bool are_copied) = 0;
+    // Prepares for all curves that will be added here.
+    virtual void reserve(const std::vector<CurveView>& curves, PointSource source) = 0;
     // Keeps a copy of the points. Throws where the curve serves no P.
     virtual void add(const CheckedCurve& Q, Poller& poller) = 0;
     // The same without a copy: the points are in layout(), with PointBlocks::padding finite numbers
-    // behind, in memory that is held.
-    virtual void look_at(const CheckedCurve& Q, const double* points, Poller& poller) = 0;
+    // behind, in memory that is held. The bounds may be there, too, as write_bounds() writes them,
+    // and are otherwise null.
+    virtual void look_at(const CheckedCurve& Q, const StoredCurve& stored, const double* bounds,
+                         Poller& poller) = 0;
     virtual void hold(std::shared_ptr<const void> points) = 0;
     virtual PointLayout layout() const noexcept = 0;
+    virtual const StoredCurve& stored(std::ptrdiff_t j) const noexcept = 0;
+    // What files name the kind of the bounds, or 0 where these cannot be stored; how many numbers
+    // those of a curve have, and these.
+    virtual std::uint64_t bounds_format() const noexcept = 0;
+    virtual std::ptrdiff_t bounds_size(std::ptrdiff_t points,
+                                       std::ptrdiff_t dim) const noexcept = 0;
+    virtual void write_bounds(std::ptrdiff_t j, double* to) const noexcept = 0;
     // Makes the trees of those that were added to none.
     virtual void plant(Poller& poller) = 0;
     // Adds those of `others`, of the same measure, for which room was made, and leaves it empty.

@@ -21,6 +21,7 @@ template <class M>
 class NoBounds {
    public:
     static constexpr int levels = 1;
+    static constexpr std::uint64_t format = 0;
     void reserve(const M& /*measure*/, const std::vector<CurveView>& /*curves*/) noexcept {}
     void keep(const typename M::PreparedQ& /*Q*/) noexcept {}
     static RowShape row_shape(const M& /*measure*/) noexcept { return {}; }
@@ -90,35 +91,53 @@ class TargetsOf final : public Targets {
     explicit TargetsOf(const M& measure)
         : measure_(measure), on_sphere_(measure.requirements().on_sphere) {}
 
-    void reserve(const std::vector<CurveView>& curves, bool are_copied) override {
-        curves_.make_room(static_cast<std::ptrdiff_t>(curves.size()));
-        if (!are_views()) prepared_.make_room(static_cast<std::ptrdiff_t>(curves.size()));
-        bounds_.reserve(measure_, curves);
+    void reserve(const std::vector<CurveView>& curves, PointSource source) override {
+        const auto count = static_cast<std::ptrdiff_t>(curves.size());
+        curves_.make_room(count);
+        if (!are_views()) prepared_.make_room(count);
+        if (source != PointSource::held_with_bounds) bounds_.reserve(measure_, curves);
         if (!curves.empty()) dim_ = curves[0].dim();
-        if (!are_copied || curves.empty()) return;
+        if (source != PointSource::others || curves.empty()) return;
         std::ptrdiff_t numbers = 0;
         for (const CurveView& curve : curves) numbers += curve.size() * dim_;
         blocks_.reserve(numbers);
     }
     void add(const CheckedCurve& Q, Poller& poller) override {
-        double* const points = blocks_.append(Q.curve.size() * dim_);
-        write_points(Q.curve, layout(), points, poller);
-        look_at(Q, points, poller);
-    }
-    void look_at(const CheckedCurve& Q, const double* points, Poller& poller) override {
         const std::ptrdiff_t size = Q.curve.size();
-        const StoredCurve stored{points, Q.largest, size, Q.curve.is_flat(),
-                                 squares_are_in_domain(points, size * dim_)};
+        double* const points = blocks_.append(size * dim_);
+        write_points(Q.curve, layout(), points, poller);
+        look_at(Q,
+                {points, Q.largest, size, Q.curve.is_flat(),
+                 squares_are_in_domain(points, size * dim_)},
+                nullptr, poller);
+    }
+    void look_at(const CheckedCurve& Q, const StoredCurve& stored, const double* bounds,
+                 Poller& poller) override {
         if (!are_views()) {
             PreparedQ prepared = with_stored(Q, stored, poller);
             bounds_.keep(prepared);
             prepared.checked.name = std::string();
             prepared_.push_back(std::move(prepared));
+        } else if (bounds != nullptr) {
+            if constexpr (Bounds::format != 0) bounds_.look_at(stored.size, dim_, bounds);
         } else if constexpr (is_view<PreparedQ>) {
             bounds_.keep(PreparedQ(stored, dim_));
         }
         curves_.push_back(stored);
-        points_ += size;
+        points_ += stored.size;
+    }
+    const StoredCurve& stored(std::ptrdiff_t j) const noexcept override { return curves_[j]; }
+    std::uint64_t bounds_format() const noexcept override {
+        return are_views() ? Bounds::format : 0;
+    }
+    std::ptrdiff_t bounds_size(std::ptrdiff_t points, std::ptrdiff_t dim) const noexcept override {
+        if constexpr (Bounds::format != 0) {
+            if (are_views()) return Bounds::stored_size(points, dim);
+        }
+        return 0;
+    }
+    void write_bounds(std::ptrdiff_t j, double* to) const noexcept override {
+        if constexpr (Bounds::format != 0) bounds_.write(j, to);
     }
     void hold(std::shared_ptr<const void> points) override { blocks_.hold(std::move(points)); }
     PointLayout layout() const noexcept override {

@@ -6,8 +6,9 @@
 #include <system_error>
 
 #ifdef _WIN32
+#ifndef NOMINMAX
 #define NOMINMAX
-#define WIN32_LEAN_AND_MEAN
+#endif
 #include <io.h>
 #include <windows.h>
 #else
@@ -191,12 +192,30 @@ void ReplacingFile::replace() {
 
 void Checksum::add(const void* bytes, std::size_t words) noexcept {
     const auto* from = static_cast<const unsigned char*>(bytes);
-    for (std::size_t k = 0; k < words; ++k, from += sizeof(std::uint64_t)) {
+    const auto next = [&] {
         std::uint64_t word = 0;
         std::memcpy(&word, from, sizeof word);
+        from += sizeof word;
+        return word;
+    };
+    const auto add_one = [&] {
         std::uint64_t& lane = lanes_[count_++ % 4];
-        lane = mixed(lane, word);
+        lane = mixed(lane, next());
+        --words;
+    };
+    while (words > 0 && count_ % 4 != 0) add_one();
+    std::uint64_t a = lanes_[0], b = lanes_[1], c = lanes_[2], d = lanes_[3];
+    for (; words >= 4; words -= 4, count_ += 4) {  // none waits for another
+        a = mixed(a, next());
+        b = mixed(b, next());
+        c = mixed(c, next());
+        d = mixed(d, next());
     }
+    lanes_[0] = a;
+    lanes_[1] = b;
+    lanes_[2] = c;
+    lanes_[3] = d;
+    while (words > 0) add_one();
 }
 
 std::uint64_t Checksum::value() const noexcept {

@@ -1,6 +1,7 @@
 #include "warping/kept_bounds.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "warping/ground_distance.hpp"
@@ -42,6 +43,24 @@ void KeptBounds::keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrd
     write_summary(tree, numbers + 1);
     KeptBoxes::write(tree, boxes);
     curves_.push_back({packed.size(), numbers, boxes});
+}
+
+std::ptrdiff_t KeptBounds::stored_size(std::ptrdiff_t points, std::ptrdiff_t dim) noexcept {
+    return numbers_of(dim) + (KeptBoxes::count(points, dim) + 3) / 4;
+}
+
+void KeptBounds::write(std::ptrdiff_t j, double* to) const noexcept {
+    const KeptCurve& curve = curves_[j];
+    std::fill_n(to, stored_size(curve.points, dim_), 0.0);
+    to = std::copy_n(curve.numbers, numbers_of(dim_), to);
+    const auto count = static_cast<std::size_t>(KeptBoxes::count(curve.points, dim_));
+    if (count > 0) std::memcpy(to, curve.boxes, count * sizeof(std::uint16_t));
+}
+
+void KeptBounds::look_at(std::ptrdiff_t points, std::ptrdiff_t dim, const double* stored) {
+    dim_ = dim;
+    const auto* const boxes = reinterpret_cast<const std::uint16_t*>(stored + numbers_of(dim));
+    curves_.push_back({points, stored, boxes});
 }
 
 void KeptBounds::make_room(const KeptBounds& others) {

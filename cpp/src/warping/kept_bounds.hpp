@@ -38,6 +38,13 @@ class KeptBounds {
     // For these curves, packed with `dim` coordinates.
     void reserve(const std::vector<CurveView>& curves, std::ptrdiff_t dim);
     void keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrder order);
+    // What files name the data of this form; to be changed with the numbers, or with KeptBoxes.
+    static constexpr std::uint64_t format = 1;
+    // How many doubles it takes for a curve: its numbers, then its boxes in whole doubles.
+    static std::ptrdiff_t stored_size(std::ptrdiff_t points, std::ptrdiff_t dim) noexcept;
+    void write(std::ptrdiff_t j, double* to) const noexcept;
+    // Refers to what was written, which must outlive this.
+    void look_at(std::ptrdiff_t points, std::ptrdiff_t dim, const double* stored);
     // Adds those of `others`, for which room was made, and leaves it empty.
     void make_room(const KeptBounds& others);
     void take(KeptBounds& others) noexcept;

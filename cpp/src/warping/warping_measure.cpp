@@ -117,6 +117,14 @@ class WarpingMeasure::Beside {
 class WarpingMeasure::Bounds {
    public:
     static constexpr int levels = warping::PairBounds::levels;
+    static constexpr std::uint64_t format = warping::KeptBounds::format;
+    static std::ptrdiff_t stored_size(std::ptrdiff_t points, std::ptrdiff_t dim) noexcept {
+        return warping::KeptBounds::stored_size(points, dim);
+    }
+    void write(std::ptrdiff_t j, double* to) const noexcept { kept_.write(j, to); }
+    void look_at(std::ptrdiff_t points, std::ptrdiff_t dim, const double* stored) {
+        kept_.look_at(points, dim, stored);
+    }
     void reserve(const WarpingMeasure& measure, const std::vector<CurveView>& curves) {
         if (curves.empty()) return;
         const bool on_sphere = measure.requirements().on_sphere;

@@ -251,7 +251,7 @@ void trees_change_no_count() {
         for (Curve& curve : curves) {
             if (on_sphere) curve = on_globe(curve.times_power_of_two(-3));
         }
-        targets->reserve(views_of(curves), true);
+        targets->reserve(views_of(curves), pairwise::PointSource::others);
         for (const Curve& curve : curves) {
             targets->add(CheckedCurve(curve, "curve", poller, on_sphere), poller);
         }
@@ -327,7 +327,7 @@ void most_bounds_are_left_out() {
                 curves.back()(i, 1) += y;
             }
         }
-        targets->reserve(views_of(curves), true);
+        targets->reserve(views_of(curves), pairwise::PointSource::others);
         for (const Curve& curve : curves) {
             targets->add(CheckedCurve(curve, "curve", poller, false), poller);
         }

@@ -83,7 +83,7 @@ void bounds_hold(const Options& options, const std::vector<Curve>& curves) {
     while (all.size() < static_cast<std::size_t>(pairwise::BoundForest::fewest_rows + 40)) {
         for (const Curve& Q : curves) all.emplace_back(Q);
     }
-    targets->reserve(all, true);
+    targets->reserve(all, pairwise::PointSource::others);
     for (const CurveView& Q : all) targets->add(CheckedCurve(Q, "Q", poller, on_sphere), poller);
     targets->plant(poller);
     const auto memory = targets->make_memory();
