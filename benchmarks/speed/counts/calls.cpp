@@ -99,7 +99,7 @@ void count_pairs(const Calls& count) {
         const CurveView P(p), Q(q);
         const std::string size = " " + std::to_string(n);
         curvewise::for_each_measure([&](const auto& options) {
-            count(options.measure + size, [&] { evaluate(options, P, Q); });
+            count(options.measure + size, [&] { return evaluate(options, P, Q); });
         });
     }
 }
@@ -112,27 +112,27 @@ void count_options(const Calls& count) {
         AreaOptions options;
         options.spacing = spacing;
         const std::string name = choice_names(spacing)[static_cast<std::size_t>(spacing)];
-        count("area 1000 " + name, [&] { area(P, Q, options); });
+        count("area 1000 " + name, [&] { return area(P, Q, options); });
     }
     AreaOptions split;
     split.crossing = Crossing::split;
-    count("area 1000 split", [&] { area(P, Q, split); });
-    count("area_quads 1000", [&] { area_quads(P, Q); });
+    count("area 1000 split", [&] { return area(P, Q, split); });
+    count("area_quads 1000", [&] { return area_quads(P, Q); });
     PcmOptions continuous;
     continuous.continuous = true;
     const Points short_p = loop(100, 1.0, 1), short_q = loop(90, 1.03, 2);
-    count("pcm 100 continuous", [&] { pcm(short_p, short_q, continuous); });
-    count("pcm_match 1000", [&] { pcm_match(P, Q); });
+    count("pcm 100 continuous", [&] { return pcm(short_p, short_q, continuous); });
+    count("pcm_match 1000", [&] { return pcm_match(P, Q); });
     std::vector<double> residuals(2 * p.size());
     count("curve_length_residuals 1000", [&] { curve_length_residuals(P, Q, residuals.data()); });
     const Points same = loop(1000, 1.03, 2);
-    count("sum_of_squares 1000", [&] { sum_of_squares(P, same); });
-    count("mse 1000", [&] { mse(P, same); });
-    count("mae 1000", [&] { mae(P, same); });
+    count("sum_of_squares 1000", [&] { return sum_of_squares(P, same); });
+    count("mse 1000", [&] { return mse(P, same); });
+    count("mae 1000", [&] { return mae(P, same); });
     count("normalize 1000", [&] { normalize(P, P, residuals.data()); });
-    count("compare 1000", [&] { compare(P, Q); });
-    count("frechet_within 1000", [&] { frechet_within(P, Q, 0.1); });
-    count("frechet_continuous_path 1000", [&] { frechet_continuous_path(P, Q); });
+    count("compare 1000", [&] { return compare(P, Q); });
+    count("frechet_within 1000", [&] { return frechet_within(P, Q, 0.1); });
+    count("frechet_continuous_path 1000", [&] { return frechet_continuous_path(P, Q); });
 }
 
 void count_metrics(const Calls& count) {
@@ -145,8 +145,8 @@ void count_metrics(const Calls& count) {
         FrechetOptions frechet_options;
         dtw_options.prune = frechet_options.prune = false;
         dtw_options.ground = frechet_options.ground = {static_cast<Metric>(metric), 3.0};
-        count("dtw 100 " + name + " in full", [&] { dtw(P, Q, dtw_options); });
-        count("frechet 100 " + name + " in full", [&] { frechet(P, Q, frechet_options); });
+        count("dtw 100 " + name + " in full", [&] { return dtw(P, Q, dtw_options); });
+        count("frechet 100 " + name + " in full", [&] { return frechet(P, Q, frechet_options); });
     }
 }
 
@@ -158,19 +158,20 @@ void count_warping(const Calls& count) {
     symmetric2.step_pattern = StepPattern::symmetric2;
     window.window = 30;
     open.open_begin = open.open_end = true;
-    count("dtw 300 symmetric2", [&] { dtw(P, Q, symmetric2); });
-    count("dtw 300 window", [&] { dtw(P, Q, window); });
-    count("dtw 300 open", [&] { dtw(P, Q, open); });
-    count("dtw_path 300", [&] { dtw_path(P, Q); });
-    count("frechet_path 300", [&] { frechet_path(P, Q); });
-    count("dtw_info 300", [&] { dtw_info(P, Q); });
-    count("frechet_info 300", [&] { frechet_info(P, Q); });
+    count("dtw 300 symmetric2", [&] { return dtw(P, Q, symmetric2); });
+    count("dtw 300 window", [&] { return dtw(P, Q, window); });
+    count("dtw 300 open", [&] { return dtw(P, Q, open); });
+    count("dtw_path 300", [&] { return dtw_path(P, Q); });
+    count("frechet_path 300", [&] { return frechet_path(P, Q); });
+    count("dtw_info 300", [&] { return dtw_info(P, Q); });
+    count("frechet_info 300", [&] { return frechet_info(P, Q); });
     std::vector<double> table(p.size() * q.size());
     count("dtw_table 300", [&] { dtw_table(P, Q, table.data()); });
     count("frechet_table 300", [&] { frechet_table(P, Q, table.data()); });
-    count("subsequences dtw 300", [&] { subsequences(CurveView(p.data()->data(), 60, 2), Q, 3); });
+    count("subsequences dtw 300",
+          [&] { return subsequences(CurveView(p.data()->data(), 60, 2), Q, 3); });
     count("subsequences frechet 300",
-          [&] { subsequences(CurveView(p.data()->data(), 60, 2), Q, 3, FrechetOptions{}); });
+          [&] { return subsequences(CurveView(p.data()->data(), 60, 2), Q, 3, FrechetOptions{}); });
     std::vector<double> gradient(2 * q.size());
     count("gradient area 300", [&] { value_and_gradient(AreaOptions{}, P, Q, gradient.data()); });
     count("gradient frechet 300",
@@ -178,7 +179,7 @@ void count_warping(const Calls& count) {
     count("gradient dtw 300", [&] { value_and_gradient(DtwOptions{}, P, Q, gradient.data()); });
     count("gradient curve_length 300",
           [&] { value_and_gradient(CurveLengthOptions{}, P, Q, gradient.data()); });
-    count("soft_dtw 300", [&] { soft_dtw(P, Q); });
+    count("soft_dtw 300", [&] { return soft_dtw(P, Q); });
     count("gradient soft_dtw 300",
           [&] { value_and_gradient(SoftDtwOptions{}, P, Q, gradient.data()); });
 }
@@ -197,15 +198,16 @@ void count_many(const Calls& count) {
         const std::string name = options.measure;
         count("cdist " + name + " 5 x 20 of 50", [&] { cdist(few, curves, options, out.data()); });
         const Prepared prepared(curves[0], options);
-        count("Prepared " + name + " 50", [&] { prepared(curves[1]); });
+        count("Prepared " + name + " 50", [&] { return prepared(curves[1]); });
     });
     count("pdist dtw 20 of 50", [&] { pdist(curves, DtwOptions{}, out.data()); });
     count("Index dtw 20 of 50", [&] { Index(curves, DtwOptions{}); });
     const Index dtw(curves, DtwOptions{}), frechet(curves, FrechetOptions{});
     count("kneighbors dtw", [&] { dtw.kneighbors(few, 3, out.data(), places.data()); });
     count("kneighbors frechet", [&] { frechet.kneighbors(few, 3, out.data(), places.data()); });
-    count("radius_neighbors frechet", [&] { frechet.radius_neighbors(few, 0.1); });
-    count("dtw_mean 5 of 50", [&] { dtw_mean(few, std::vector<double>(5, 1.0), curves[0]); });
+    count("radius_neighbors frechet", [&] { return frechet.radius_neighbors(few, 0.1); });
+    count("dtw_mean 5 of 50",
+          [&] { return dtw_mean(few, std::vector<double>(5, 1.0), curves[0]); });
 }
 
 void count_materials(const Calls& count) {

@@ -108,8 +108,8 @@ void time_planar() {
     const std::vector<double> p = random_walk(1000, 2, 1), q = random_walk(900, 2, 2);
     const CurveView P(p.data(), 1000, 2), Q(q.data(), 900, 2);
     const std::vector<double> times =
-        medians({[&] { curvewise::area(P, Q); }, [&] { curvewise::pcm(P, Q); },
-                 [&] { curvewise::curve_length(P, Q); }});
+        medians({[&] { return curvewise::area(P, Q); }, [&] { return curvewise::pcm(P, Q); },
+                 [&] { return curvewise::curve_length(P, Q); }});
     std::printf("1000 and 900 points: area %.1f us, pcm %.1f us, curve_length %.1f us\n",
                 times[0] * 1e6, times[1] * 1e6, times[2] * 1e6);
 }

@@ -101,16 +101,18 @@ struct AreaQuads {
 
 /// In units of x times units of y; with options.squared, of that squared, or with
 /// Spacing::function in units of x times units of y squared.
-CURVEWISE_EXPORT double area(const CurveView& P, const CurveView& Q,
-                             const AreaOptions& options = {}, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double area(const CurveView& P, const CurveView& Q,
+                                           const AreaOptions& options = {},
+                                           Control* control = nullptr);
 
 /// The quadrilaterals behind area(); options.squared is not used.
-CURVEWISE_EXPORT AreaQuads area_quads(const CurveView& P, const CurveView& Q,
-                                      const AreaOptions& options = {}, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT AreaQuads area_quads(const CurveView& P, const CurveView& Q,
+                                                    const AreaOptions& options = {},
+                                                    Control* control = nullptr);
 
 /// For code that treats all measures in the same way (measure.hpp).
-inline double evaluate(const AreaOptions& options, const CurveView& P, const CurveView& Q,
-                       Control* control = nullptr) {
+[[nodiscard]] inline double evaluate(const AreaOptions& options, const CurveView& P,
+                                     const CurveView& Q, Control* control = nullptr) {
     return area(P, Q, options, control);
 }
 

@@ -25,6 +25,6 @@ struct BuildInfo {
 };
 
 /// Returns how the library was built, and its instruction-set level on this machine.
-CURVEWISE_EXPORT BuildInfo build_info();
+[[nodiscard]] CURVEWISE_EXPORT BuildInfo build_info();
 
 }  // namespace curvewise

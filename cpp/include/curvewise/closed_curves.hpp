@@ -37,7 +37,7 @@ namespace curvewise {
 struct ClosedOptions {
     static constexpr const char* measure = "closed curves";
 
-    GroundDistance ground;
+    GroundDistance ground = {};
     /// A larger distance becomes infinity, without a path. At least 0.
     double cutoff = std::numeric_limits<double>::infinity();
 
@@ -55,23 +55,24 @@ void visit_options(ClosedOptions& options, Visit&& visit) {
 }
 
 /// The least sum.
-CURVEWISE_EXPORT double closed_dtw(const CurveView& P, const CurveView& Q,
-                                   const ClosedOptions& options = {}, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double closed_dtw(const CurveView& P, const CurveView& Q,
+                                                 const ClosedOptions& options = {},
+                                                 Control* control = nullptr);
 
 /// The least sum, with its pairs: the first is one of P's first point; it is not repeated at the
 /// end.
-CURVEWISE_EXPORT Alignment closed_dtw_path(const CurveView& P, const CurveView& Q,
-                                           const ClosedOptions& options = {},
-                                           Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT Alignment closed_dtw_path(const CurveView& P, const CurveView& Q,
+                                                         const ClosedOptions& options = {},
+                                                         Control* control = nullptr);
 
 /// The least maximum.
-CURVEWISE_EXPORT double closed_frechet(const CurveView& P, const CurveView& Q,
-                                       const ClosedOptions& options = {},
-                                       Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double closed_frechet(const CurveView& P, const CurveView& Q,
+                                                     const ClosedOptions& options = {},
+                                                     Control* control = nullptr);
 
 /// The least maximum, with its pairs.
-CURVEWISE_EXPORT Alignment closed_frechet_path(const CurveView& P, const CurveView& Q,
-                                               const ClosedOptions& options = {},
-                                               Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT Alignment closed_frechet_path(const CurveView& P, const CurveView& Q,
+                                                             const ClosedOptions& options = {},
+                                                             Control* control = nullptr);
 
 }  // namespace curvewise

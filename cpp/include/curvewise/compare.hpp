@@ -39,7 +39,7 @@ struct Condition {
 };
 
 /// One for each measure, in the order of the list (measure.hpp).
-CURVEWISE_EXPORT std::vector<Condition> conditions(Preset preset);
+[[nodiscard]] CURVEWISE_EXPORT std::vector<Condition> conditions(Preset preset);
 
 /// One value for each measure. Measures of the plane are empty if the curves do not have two
 /// coordinates.
@@ -61,7 +61,8 @@ struct Comparison {
 
 /// Throws the errors of the measures: std::invalid_argument, std::bad_alloc, Stopped. The control
 /// watches one measure after the other, not their sum.
-CURVEWISE_EXPORT Comparison compare(const CurveView& P, const CurveView& Q,
-                                    Preset preset = Preset::scaled, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT Comparison compare(const CurveView& P, const CurveView& Q,
+                                                  Preset preset = Preset::scaled,
+                                                  Control* control = nullptr);
 
 }  // namespace curvewise

@@ -139,7 +139,7 @@ class CurveView {
     bool is_flat() const noexcept { return dim_ == 1 && col_stride_ == 0; }
 
     /// "(5, 2)", or "(5,)" for a flat list.
-    CURVEWISE_EXPORT std::string shape() const;
+    [[nodiscard]] CURVEWISE_EXPORT std::string shape() const;
 
    private:
     struct Sequence {};

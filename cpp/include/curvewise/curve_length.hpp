@@ -55,9 +55,9 @@ void visit_options(CurveLengthOptions& options, Visit&& visit) {
 }
 
 /// The norm of the residuals: dimensionless.
-CURVEWISE_EXPORT double curve_length(const CurveView& P, const CurveView& Q,
-                                     const CurveLengthOptions& options = {},
-                                     Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double curve_length(const CurveView& P, const CurveView& Q,
+                                                   const CurveLengthOptions& options = {},
+                                                   Control* control = nullptr);
 
 /// For a least-squares solver: writes r_x to out[2 i] and r_y to out[2 i + 1] for every point of P,
 /// 2 P.size() numbers. The measure is their Euclidean norm.
@@ -66,8 +66,8 @@ CURVEWISE_EXPORT void curve_length_residuals(const CurveView& P, const CurveView
                                              Control* control = nullptr);
 
 /// For code that treats all measures in the same way (measure.hpp).
-inline double evaluate(const CurveLengthOptions& options, const CurveView& P, const CurveView& Q,
-                       Control* control = nullptr) {
+[[nodiscard]] inline double evaluate(const CurveLengthOptions& options, const CurveView& P,
+                                     const CurveView& Q, Control* control = nullptr) {
     return curve_length(P, Q, options, control);
 }
 

@@ -39,17 +39,17 @@ struct DtwOptions {
     static constexpr const char* measure = "dtw";
     static constexpr bool is_planar = false;  ///< for curves of any dimension
 
-    GroundDistance ground;
+    GroundDistance ground = {};
     StepPattern step_pattern = StepPattern::symmetric1;
     /// Replaces `step_pattern` if it has rows.
     StepRows own_steps = {};
     /// Cost added to each step that leaves the diagonal, at least 0.
     double penalty = 0.0;
     /// Sakoe-Chiba band: |i (m-1) - j (n-1)| <= window (max(n, m) - 1); no band if n or m is 1.
-    std::optional<std::ptrdiff_t> window;
+    std::optional<std::ptrdiff_t> window = {};
     /// In place of `window`, a fraction between 0 and 1 of the points of the longer curve, cut to a
     /// whole number.
-    std::optional<double> window_fraction;
+    std::optional<double> window_fraction = {};
     /// Subsequence DTW (Müller 2007): P is matched to a section of Q, which may begin, or end,
     /// anywhere. It excludes windows. It needs symmetric1 without a penalty, or a step pattern
     /// whose paths all have one weight: open_begin needs the weight n. The end minimises c over the
@@ -73,7 +73,7 @@ struct DtwOptions {
     /// additional cutoff.
     double cutoff = std::numeric_limits<double>::infinity();
 
-    CURVEWISE_EXPORT bool is_symmetric() const;
+    [[nodiscard]] CURVEWISE_EXPORT bool is_symmetric() const;
     /// The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
     double work(double n, double m, double dim) const noexcept {
         return n * m * ground.weight(dim);
@@ -98,25 +98,28 @@ void visit_options(DtwOptions& options, Visit&& visit) {
 }
 
 /// The distance, in units of the ground distance.
-CURVEWISE_EXPORT double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options = {},
-                            Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double dtw(const CurveView& P, const CurveView& Q,
+                                          const DtwOptions& options = {},
+                                          Control* control = nullptr);
 
 /// Among equal predecessors: diagonal, then (i-1, j), then (i, j-1). The sum of step weight
 /// times ground distance along the path, in path order, equals the distance to the bit.
-CURVEWISE_EXPORT Alignment dtw_path(const CurveView& P, const CurveView& Q,
-                                    const DtwOptions& options = {}, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT Alignment dtw_path(const CurveView& P, const CurveView& Q,
+                                                  const DtwOptions& options = {},
+                                                  Control* control = nullptr);
 
 /// Writes c to out[i * m + j]; infinity outside the window.
 CURVEWISE_EXPORT void dtw_table(const CurveView& P, const CurveView& Q, double* out,
                                 const DtwOptions& options = {}, Control* control = nullptr);
 
 /// The distance, with how it was found (see docs/explanation/exact_and_fast.md).
-CURVEWISE_EXPORT WarpingInfo dtw_info(const CurveView& P, const CurveView& Q,
-                                      const DtwOptions& options = {}, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT WarpingInfo dtw_info(const CurveView& P, const CurveView& Q,
+                                                    const DtwOptions& options = {},
+                                                    Control* control = nullptr);
 
 /// For code that treats all measures in the same way (measure.hpp).
-inline double evaluate(const DtwOptions& options, const CurveView& P, const CurveView& Q,
-                       Control* control = nullptr) {
+[[nodiscard]] inline double evaluate(const DtwOptions& options, const CurveView& P,
+                                     const CurveView& Q, Control* control = nullptr) {
     return dtw(P, Q, options, control);
 }
 

@@ -28,8 +28,8 @@ namespace curvewise {
 /// How dtw_mean() matches points, and when it ends.
 struct DtwMeanOptions {
     /// As for dtw.
-    std::optional<std::ptrdiff_t> window;
-    std::optional<double> window_fraction;
+    std::optional<std::ptrdiff_t> window = {};
+    std::optional<double> window_fraction = {};
     /// Maximum number of rounds, at least 0.
     std::ptrdiff_t iterations = 30;
     /// The search ends if a round lowers the sum by at most this part of it.
@@ -46,8 +46,10 @@ struct DtwMean {
 };
 
 /// `weights`: one for each curve, or empty for equal weights.
-CURVEWISE_EXPORT DtwMean dtw_mean(const std::vector<CurveView>& curves,
-                                  const std::vector<double>& weights, const CurveView& initial,
-                                  const DtwMeanOptions& options = {}, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT DtwMean dtw_mean(const std::vector<CurveView>& curves,
+                                                const std::vector<double>& weights,
+                                                const CurveView& initial,
+                                                const DtwMeanOptions& options = {},
+                                                Control* control = nullptr);
 
 }  // namespace curvewise

@@ -30,7 +30,7 @@ struct EditOptions {
     static constexpr bool is_planar = false;  ///< for curves of any dimension
     static constexpr bool has_ground = true;  ///< among its options
 
-    GroundDistance ground;
+    GroundDistance ground = {};
     /// As for dtw().
     std::optional<std::ptrdiff_t> window = {};
     std::optional<double> window_fraction = {};

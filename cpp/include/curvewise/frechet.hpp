@@ -31,7 +31,7 @@ struct FrechetOptions {
     static constexpr const char* measure = "frechet";
     static constexpr bool is_planar = false;  ///< for curves of any dimension
 
-    GroundDistance ground;
+    GroundDistance ground = {};
     /// Threads for this call, -1 for one per core. Never changes a result.
     std::ptrdiff_t workers = 1;
     /// Whether to skip table cells that cannot affect the result: similar curves then take nearly
@@ -58,27 +58,28 @@ void visit_options(FrechetOptions& options, Visit&& visit) {
 }
 
 /// The distance, in units of the ground distance.
-CURVEWISE_EXPORT double frechet(const CurveView& P, const CurveView& Q,
-                                const FrechetOptions& options = {}, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double frechet(const CurveView& P, const CurveView& Q,
+                                              const FrechetOptions& options = {},
+                                              Control* control = nullptr);
 
 /// Among equal predecessors: diagonal, then (i-1, j), then (i, j-1). The largest ground distance
 /// along the path equals the distance to the bit.
-CURVEWISE_EXPORT Alignment frechet_path(const CurveView& P, const CurveView& Q,
-                                        const FrechetOptions& options = {},
-                                        Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT Alignment frechet_path(const CurveView& P, const CurveView& Q,
+                                                      const FrechetOptions& options = {},
+                                                      Control* control = nullptr);
 
 /// Writes c to out[i * m + j].
 CURVEWISE_EXPORT void frechet_table(const CurveView& P, const CurveView& Q, double* out,
                                     const FrechetOptions& options = {}, Control* control = nullptr);
 
 /// The distance, with how it was found (see docs/explanation/exact_and_fast.md).
-CURVEWISE_EXPORT WarpingInfo frechet_info(const CurveView& P, const CurveView& Q,
-                                          const FrechetOptions& options = {},
-                                          Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT WarpingInfo frechet_info(const CurveView& P, const CurveView& Q,
+                                                        const FrechetOptions& options = {},
+                                                        Control* control = nullptr);
 
 /// For code that treats all measures in the same way (measure.hpp).
-inline double evaluate(const FrechetOptions& options, const CurveView& P, const CurveView& Q,
-                       Control* control = nullptr) {
+[[nodiscard]] inline double evaluate(const FrechetOptions& options, const CurveView& P,
+                                     const CurveView& Q, Control* control = nullptr) {
     return frechet(P, Q, options, control);
 }
 

@@ -57,14 +57,14 @@ struct Interval {
 };
 
 /// The real number rounded up; inf if it is beyond the range of a double.
-CURVEWISE_EXPORT double frechet_continuous(const CurveView& P, const CurveView& Q,
-                                           const FrechetContinuousOptions& options = {},
-                                           Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double frechet_continuous(
+    const CurveView& P, const CurveView& Q, const FrechetContinuousOptions& options = {},
+    Control* control = nullptr);
 
 /// The same, and the real number rounded down: equal to it, or the double below it.
-CURVEWISE_EXPORT Interval frechet_continuous_bounds(const CurveView& P, const CurveView& Q,
-                                                    const FrechetContinuousOptions& options = {},
-                                                    Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT Interval
+frechet_continuous_bounds(const CurveView& P, const CurveView& Q,
+                          const FrechetContinuousOptions& options = {}, Control* control = nullptr);
 
 /// Two walks that attain the distance.
 struct Matching {
@@ -81,19 +81,20 @@ struct Matching {
 /// Among the matchings within the distance, prefers one that keeps the curves close. Twice the time
 /// of the distance. Memory O(n + m), and sqrt(n) times the number of separate sections in a row of
 /// the free-space diagram.
-CURVEWISE_EXPORT Matching frechet_continuous_path(const CurveView& P, const CurveView& Q,
-                                                  const FrechetContinuousOptions& options = {},
-                                                  Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT Matching
+frechet_continuous_path(const CurveView& P, const CurveView& Q,
+                        const FrechetContinuousOptions& options = {}, Control* control = nullptr);
 
 /// Whether the continuous distance, or the discrete one of Euclidean distances, is at most
 /// `distance`, a number >= 0. The decision is about the real numbers, not about rounded ones.
 /// Faster than the distance, and far faster for curves that lie far apart.
-CURVEWISE_EXPORT bool frechet_within(const CurveView& P, const CurveView& Q, double distance,
-                                     bool continuous = true, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT bool frechet_within(const CurveView& P, const CurveView& Q,
+                                                   double distance, bool continuous = true,
+                                                   Control* control = nullptr);
 
 /// For code that treats all measures in the same way (measure.hpp).
-inline double evaluate(const FrechetContinuousOptions& options, const CurveView& P,
-                       const CurveView& Q, Control* control = nullptr) {
+[[nodiscard]] inline double evaluate(const FrechetContinuousOptions& options, const CurveView& P,
+                                     const CurveView& Q, Control* control = nullptr) {
     return frechet_continuous(P, Q, options, control);
 }
 

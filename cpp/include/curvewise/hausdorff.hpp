@@ -24,7 +24,7 @@ struct HausdorffOptions {
     static constexpr const char* measure = "hausdorff";
     static constexpr bool is_planar = false;  ///< for curves of any dimension
 
-    GroundDistance ground;
+    GroundDistance ground = {};
     /// A distance above it, at least 0, becomes infinity.
     double cutoff = std::numeric_limits<double>::infinity();
 
@@ -42,12 +42,13 @@ void visit_options(HausdorffOptions& options, Visit&& visit) {
 }
 
 /// The distance, in units of the ground distance.
-CURVEWISE_EXPORT double hausdorff(const CurveView& P, const CurveView& Q,
-                                  const HausdorffOptions& options = {}, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double hausdorff(const CurveView& P, const CurveView& Q,
+                                                const HausdorffOptions& options = {},
+                                                Control* control = nullptr);
 
 /// For code that treats all measures in the same way (measure.hpp).
-inline double evaluate(const HausdorffOptions& options, const CurveView& P, const CurveView& Q,
-                       Control* control = nullptr) {
+[[nodiscard]] inline double evaluate(const HausdorffOptions& options, const CurveView& P,
+                                     const CurveView& Q, Control* control = nullptr) {
     return hausdorff(P, Q, options, control);
 }
 

@@ -47,9 +47,9 @@ void visit_options(HausdorffContinuousOptions& options, Visit&& visit) {
 }
 
 /// The distance, in units of the coordinates; infinity if it is beyond the range of a double.
-CURVEWISE_EXPORT double hausdorff_continuous(const CurveView& P, const CurveView& Q,
-                                             const HausdorffContinuousOptions& options = {},
-                                             Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double hausdorff_continuous(
+    const CurveView& P, const CurveView& Q, const HausdorffContinuousOptions& options = {},
+    Control* control = nullptr);
 
 /// The point of a curve that is farthest from another curve, and the point of that nearest to it.
 struct FarthestPoint {
@@ -66,13 +66,13 @@ struct HausdorffPoints {
 };
 
 /// Both directed distances with the points that attain them; of equally far points one of them.
-CURVEWISE_EXPORT HausdorffPoints hausdorff_continuous_points(
+[[nodiscard]] CURVEWISE_EXPORT HausdorffPoints hausdorff_continuous_points(
     const CurveView& P, const CurveView& Q, const HausdorffContinuousOptions& options = {},
     Control* control = nullptr);
 
 /// For code that treats all measures in the same way (measure.hpp).
-inline double evaluate(const HausdorffContinuousOptions& options, const CurveView& P,
-                       const CurveView& Q, Control* control = nullptr) {
+[[nodiscard]] inline double evaluate(const HausdorffContinuousOptions& options, const CurveView& P,
+                                     const CurveView& Q, Control* control = nullptr) {
     return hausdorff_continuous(P, Q, options, control);
 }
 

@@ -104,8 +104,10 @@ struct MaterialParameter {
 };
 
 /// The parameters of a material, in the order of material_stress().
-CURVEWISE_EXPORT std::vector<MaterialParameter> material_parameters(const ChabocheVoce& material);
-CURVEWISE_EXPORT std::vector<MaterialParameter> material_parameters(const YoshidaUemori& material);
+[[nodiscard]] CURVEWISE_EXPORT std::vector<MaterialParameter> material_parameters(
+    const ChabocheVoce& material);
+[[nodiscard]] CURVEWISE_EXPORT std::vector<MaterialParameter> material_parameters(
+    const YoshidaUemori& material);
 
 /// Writes the stress at each of n strains. Unless `slopes` is null, also writes the derivative of
 /// stress i by parameter j to slopes[i * k + j], in n rows of k numbers for k parameters.

@@ -46,7 +46,7 @@ void for_each_measure(Visit&& visit) {
 }
 
 /// The measure of P and Q. Throws the errors of the measure's own function.
-CURVEWISE_EXPORT double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q,
-                                 Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double evaluate(const Measure& measure, const CurveView& P,
+                                               const CurveView& Q, Control* control = nullptr);
 
 }  // namespace curvewise

@@ -129,13 +129,13 @@ class Index {
     [[nodiscard]] CURVEWISE_EXPORT static Index open(const IndexFile& file, const Measure& measure,
                                                      Control* control = nullptr);
     /// The number of curves, without those removed.
-    CURVEWISE_EXPORT std::size_t size() const;
+    [[nodiscard]] CURVEWISE_EXPORT std::size_t size() const;
     /// Copies of the points, without those removed: valid as long as the index.
-    CURVEWISE_EXPORT std::vector<CurveView> curves() const;
+    [[nodiscard]] CURVEWISE_EXPORT std::vector<CurveView> curves() const;
     /// The indices of the curves, in ascending order.
-    CURVEWISE_EXPORT std::vector<std::int64_t> indices() const;
+    [[nodiscard]] CURVEWISE_EXPORT std::vector<std::int64_t> indices() const;
     /// The index that the next curve will have.
-    CURVEWISE_EXPORT std::int64_t next_index() const;
+    [[nodiscard]] CURVEWISE_EXPORT std::int64_t next_index() const;
 
     /// Writes the n_neighbors nearest of X[i] (as P, the curves of the index as Q) to distances[i *
     /// n_neighbors] and indices[i * n_neighbors] on, in ascending order. Throws before any work:
@@ -152,17 +152,17 @@ class Index {
                                      std::int64_t* indices, const SearchOptions& options = {},
                                      Control* control = nullptr) const;
     /// The same, where others may: n_neighbors neighbours a row, row after row.
-    CURVEWISE_EXPORT std::vector<Neighbor> kneighbors(std::ptrdiff_t n_neighbors,
-                                                      const SearchOptions& options = {},
-                                                      Control* control = nullptr) const;
+    [[nodiscard]] CURVEWISE_EXPORT std::vector<Neighbor> kneighbors(
+        std::ptrdiff_t n_neighbors, const SearchOptions& options = {},
+        Control* control = nullptr) const;
 
     /// All curves whose distance from X[i] is at most `radius`: a number >= 0, except where the
     /// measure may be negative (dtw with own steps of negative weight).
-    CURVEWISE_EXPORT std::vector<std::vector<Neighbor>> radius_neighbors(
+    [[nodiscard]] CURVEWISE_EXPORT std::vector<std::vector<Neighbor>> radius_neighbors(
         const std::vector<CurveView>& X, double radius, const SearchOptions& options = {},
         Control* control = nullptr) const;
     /// Of every curve of the index, without the curve itself, in the order of indices().
-    CURVEWISE_EXPORT std::vector<std::vector<Neighbor>> radius_neighbors(
+    [[nodiscard]] CURVEWISE_EXPORT std::vector<std::vector<Neighbor>> radius_neighbors(
         double radius, const SearchOptions& options = {}, Control* control = nullptr) const;
 
    private:

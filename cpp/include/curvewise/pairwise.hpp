@@ -4,8 +4,8 @@
 /// checks, its packing for the kernels, its scaling) is done once a curve and not once a pair.
 ///
 ///     const std::vector<curvewise::CurveView> X = ...;
-///     std::vector<double> distances(X.size() * (X.size() - 1) / 2);
-///     curvewise::pdist(X, curvewise::DtwOptions{}, distances.data(), {-1});  // on all cores
+///     const std::vector<double> distances =
+///         curvewise::pdist(X, curvewise::DtwOptions{}, curvewise::BatchOptions{-1});  // all cores
 ///
 /// Threads take tiles of pairs, the largest pairs first. If a pair is large compared with all
 /// others, all threads sweep it together. Neither their number nor their order changes a value:
@@ -28,7 +28,7 @@ namespace curvewise {
 
 /// Whether d(P, Q) = d(Q, P): dtw without open ends, frechet, and (to rounding) area except with
 /// Spacing::arc_length.
-CURVEWISE_EXPORT bool is_symmetric(const Measure& measure);
+[[nodiscard]] CURVEWISE_EXPORT bool is_symmetric(const Measure& measure);
 
 /// How a batch is run.
 struct BatchOptions {
@@ -51,6 +51,26 @@ CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& XA, const std::vector<
 CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
                             const BatchOptions& options = {}, Control* control = nullptr);
 
+/// The same in a vector: XA.size() rows of XB.size() values.
+[[nodiscard]] inline std::vector<double> cdist(const std::vector<CurveView>& XA,
+                                               const std::vector<CurveView>& XB,
+                                               const Measure& measure,
+                                               const BatchOptions& options = {},
+                                               Control* control = nullptr) {
+    std::vector<double> out(XA.size() * XB.size());
+    cdist(XA, XB, measure, out.data(), options, control);
+    return out;
+}
+/// The same of one list with itself.
+[[nodiscard]] inline std::vector<double> cdist(const std::vector<CurveView>& X,
+                                               const Measure& measure,
+                                               const BatchOptions& options = {},
+                                               Control* control = nullptr) {
+    std::vector<double> out(X.size() * X.size());
+    cdist(X, measure, out.data(), options, control);
+    return out;
+}
+
 /// Throws the errors that cdist of these lists would throw before its work. For code that cuts a
 /// batch into parts: a part does not have the index of the curve in the whole list.
 CURVEWISE_EXPORT void check_batch(const std::vector<CurveView>& XA,
@@ -65,6 +85,16 @@ CURVEWISE_EXPORT void check_batch(const std::vector<CurveView>& X, const Measure
 CURVEWISE_EXPORT void pdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
                             const BatchOptions& options = {}, Control* control = nullptr);
 
+/// The same in a vector.
+[[nodiscard]] inline std::vector<double> pdist(const std::vector<CurveView>& X,
+                                               const Measure& measure,
+                                               const BatchOptions& options = {},
+                                               Control* control = nullptr) {
+    std::vector<double> out(X.empty() ? 0 : X.size() * (X.size() - 1) / 2);
+    pdist(X, measure, out.data(), options, control);
+    return out;
+}
+
 /// A curve P, checked, packed and scaled once, for comparison with others. Owns a copy of P. Cheap
 /// to copy, and a move is a copy. Any number of threads may call it.
 class Prepared {
@@ -76,7 +106,8 @@ class Prepared {
     ~Prepared() = default;
 
     /// The measure of P and Q. Throws as the measure does.
-    CURVEWISE_EXPORT double operator()(const CurveView& Q, Control* control = nullptr) const;
+    [[nodiscard]] CURVEWISE_EXPORT double operator()(const CurveView& Q,
+                                                     Control* control = nullptr) const;
     /// Writes the measure of P and each of Qs to out[j], as cdist would.
     CURVEWISE_EXPORT void operator()(const std::vector<CurveView>& Qs, double* out,
                                      const BatchOptions& options = {},

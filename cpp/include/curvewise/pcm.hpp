@@ -70,15 +70,17 @@ struct PcmMatch {
 };
 
 /// The smallest area, in units of the scaled axes.
-CURVEWISE_EXPORT double pcm(const CurveView& P, const CurveView& Q, const PcmOptions& options = {},
-                            Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double pcm(const CurveView& P, const CurveView& Q,
+                                          const PcmOptions& options = {},
+                                          Control* control = nullptr);
 /// The same, with the offset that attains it.
-CURVEWISE_EXPORT PcmMatch pcm_match(const CurveView& P, const CurveView& Q,
-                                    const PcmOptions& options = {}, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT PcmMatch pcm_match(const CurveView& P, const CurveView& Q,
+                                                  const PcmOptions& options = {},
+                                                  Control* control = nullptr);
 
 /// For code that treats all measures in the same way (measure.hpp).
-inline double evaluate(const PcmOptions& options, const CurveView& P, const CurveView& Q,
-                       Control* control = nullptr) {
+[[nodiscard]] inline double evaluate(const PcmOptions& options, const CurveView& P,
+                                     const CurveView& Q, Control* control = nullptr) {
     return pcm(P, Q, options, control);
 }
 

@@ -15,12 +15,14 @@
 namespace curvewise {
 
 /// The sum, over all n dim entries, of the squared difference.
-CURVEWISE_EXPORT double sum_of_squares(const CurveView& P, const CurveView& Q,
-                                       Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double sum_of_squares(const CurveView& P, const CurveView& Q,
+                                                     Control* control = nullptr);
 /// The mean, over all n dim entries, of the squared difference.
-CURVEWISE_EXPORT double mse(const CurveView& P, const CurveView& Q, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double mse(const CurveView& P, const CurveView& Q,
+                                          Control* control = nullptr);
 /// The mean, over all n dim entries, of the absolute difference.
-CURVEWISE_EXPORT double mae(const CurveView& P, const CurveView& Q, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double mae(const CurveView& P, const CurveView& Q,
+                                          Control* control = nullptr);
 
 /// Writes C minus P's minimum, divided by P's extent, to out[i * dim + c]. It does not divide in a
 /// direction in which P's extent is zero. C may be P itself. `name` is the name of C in messages.

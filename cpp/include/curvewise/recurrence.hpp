@@ -120,18 +120,18 @@ struct Recurrence {
     FreeEnds ends = {};  ///< for a border of `none`
 
     /// Whether P and Q may change places.
-    CURVEWISE_EXPORT bool is_symmetric() const;
+    [[nodiscard]] CURVEWISE_EXPORT bool is_symmetric() const;
 };
 
 /// Throws std::invalid_argument as dtw() does, and for steps of more than eight rows or columns, or
 /// with terms outside of them.
-CURVEWISE_EXPORT double warp(const Recurrence& recurrence, const CurveView& P, const CurveView& Q,
-                             Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double warp(const Recurrence& recurrence, const CurveView& P,
+                                           const CurveView& Q, Control* control = nullptr);
 /// The cells that a cheapest path visits, including those between the ends of its steps. Empty if
 /// the steps admit no path. If every path is infinite, the cells of one of them. Throws
 /// std::invalid_argument for one table per coordinate, because there are then several paths.
-CURVEWISE_EXPORT Alignment warp_path(const Recurrence& recurrence, const CurveView& P,
-                                     const CurveView& Q, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT Alignment warp_path(const Recurrence& recurrence, const CurveView& P,
+                                                   const CurveView& Q, Control* control = nullptr);
 /// Writes c to out[i * m + j]; infinity outside the window.
 CURVEWISE_EXPORT void warp_table(const Recurrence& recurrence, const CurveView& P,
                                  const CurveView& Q, double* out, Control* control = nullptr);

@@ -35,8 +35,8 @@ struct SoftDtwOptions {
     /// In the unit of the ground distance, squared coordinates.
     double gamma = 1.0;
     /// As for dtw.
-    std::optional<std::ptrdiff_t> window;
-    std::optional<double> window_fraction;
+    std::optional<std::ptrdiff_t> window = {};
+    std::optional<double> window_fraction = {};
 
     static constexpr bool is_symmetric() noexcept { return true; }
     /// The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
@@ -50,12 +50,13 @@ void visit_options(SoftDtwOptions& options, Visit&& visit) {
     visit("window", options.window, options.window_fraction, window_range);
 }
 
-CURVEWISE_EXPORT double soft_dtw(const CurveView& P, const CurveView& Q,
-                                 const SoftDtwOptions& options = {}, Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double soft_dtw(const CurveView& P, const CurveView& Q,
+                                               const SoftDtwOptions& options = {},
+                                               Control* control = nullptr);
 
 /// For code that treats all measures in the same way (gradient.hpp).
-inline double evaluate(const SoftDtwOptions& options, const CurveView& P, const CurveView& Q,
-                       Control* control = nullptr) {
+[[nodiscard]] inline double evaluate(const SoftDtwOptions& options, const CurveView& P,
+                                     const CurveView& Q, Control* control = nullptr) {
     return soft_dtw(P, Q, options, control);
 }
 

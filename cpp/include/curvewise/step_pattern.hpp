@@ -169,13 +169,13 @@ struct StepRows {
     Per per = Per::one;  ///< `one` if paths have different weights
 
     /// Whether a cell has a negative weight; distances may then be below 0.
-    CURVEWISE_EXPORT bool has_negative_weight() const noexcept;
+    [[nodiscard]] CURVEWISE_EXPORT bool has_negative_weight() const noexcept;
 };
 
-CURVEWISE_EXPORT StepRows step_rows(const StepSet& pattern);
+[[nodiscard]] CURVEWISE_EXPORT StepRows step_rows(const StepSet& pattern);
 /// Type 1 to 7 of Rabiner & Juang. Throws std::invalid_argument for another.
-CURVEWISE_EXPORT StepRows rabiner_juang(int type, SlopeWeight weight, bool smoothed);
+[[nodiscard]] CURVEWISE_EXPORT StepRows rabiner_juang(int type, SlopeWeight weight, bool smoothed);
 /// Throws std::invalid_argument for a step that does not begin with a row of weight -1.
-CURVEWISE_EXPORT std::vector<Step> steps_of(const StepRows& pattern);
+[[nodiscard]] CURVEWISE_EXPORT std::vector<Step> steps_of(const StepRows& pattern);
 
 }  // namespace curvewise

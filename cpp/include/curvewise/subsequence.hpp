@@ -39,15 +39,17 @@ struct Subsequence {
 /// cutoff. Throws std::invalid_argument as dtw and frechet do, for a count below 1, for a window,
 /// and for a step pattern other than symmetric1. Throws std::bad_alloc and Stopped. Open ends are
 /// implied.
-CURVEWISE_EXPORT std::vector<Subsequence> subsequences(const CurveView& P, const CurveView& Q,
-                                                       std::ptrdiff_t count = 1,
-                                                       const DtwOptions& options = {},
-                                                       Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT std::vector<Subsequence> subsequences(const CurveView& P,
+                                                                     const CurveView& Q,
+                                                                     std::ptrdiff_t count = 1,
+                                                                     const DtwOptions& options = {},
+                                                                     Control* control = nullptr);
 /// The same under the discrete Fréchet distance.
-CURVEWISE_EXPORT std::vector<Subsequence> subsequences(const CurveView& P, const CurveView& Q,
-                                                       std::ptrdiff_t count,
-                                                       const FrechetOptions& options,
-                                                       Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT std::vector<Subsequence> subsequences(const CurveView& P,
+                                                                     const CurveView& Q,
+                                                                     std::ptrdiff_t count,
+                                                                     const FrechetOptions& options,
+                                                                     Control* control = nullptr);
 
 /// How far the runs of a curve lie outside of boxes.
 struct RunsOutside {
@@ -65,7 +67,8 @@ struct RunsOutside {
 ///
 /// `low` and `high` are the boxes' corners. Throws std::invalid_argument for different shapes, no
 /// boxes, minkowski (except in one dimension), and haversine; std::bad_alloc.
-CURVEWISE_EXPORT RunsOutside runs_outside(const CurveView& low, const CurveView& high,
-                                          const CurveView& Q, Metric metric, bool of_largest);
+[[nodiscard]] CURVEWISE_EXPORT RunsOutside runs_outside(const CurveView& low, const CurveView& high,
+                                                        const CurveView& Q, Metric metric,
+                                                        bool of_largest);
 
 }  // namespace curvewise

@@ -19,7 +19,7 @@
 namespace curvewise {
 
 /// In units of x times units of y.
-CURVEWISE_EXPORT double symmetric_difference(const CurveView& P, const CurveView& Q,
-                                             Control* control = nullptr);
+[[nodiscard]] CURVEWISE_EXPORT double symmetric_difference(const CurveView& P, const CurveView& Q,
+                                                           Control* control = nullptr);
 
 }  // namespace curvewise

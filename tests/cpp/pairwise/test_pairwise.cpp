@@ -80,6 +80,9 @@ void batches_equal_single_calls() {
             pdist(X, measure, out.data(), options);
             CHECK_EQUAL(out, condensed);
         }
+        CHECK_EQUAL(cdist(X, measure), matrix);
+        CHECK_EQUAL(cdist(X, some, measure), rectangle);
+        if (is_symmetric(measure)) CHECK_EQUAL(pdist(X, measure, {2}), condensed);
     }
 }
 
@@ -249,13 +252,13 @@ void a_stopped_call_throws() {
     const std::vector<std::function<void(Control*)>> calls{
         [&](Control* control) { pdist(tiny, AreaOptions{}, out.data(), {2}, control); },
         [&](Control* control) { pdist(tiny, FrechetOptions{}, out.data(), {2}, control); },
-        [&](Control* control) { frechet(P, P, slow, control); },
-        [&](Control* control) { dtw(P, P, threaded, control); },
-        [&](Control* control) { dtw_path(P, P, threaded, control); },
-        [&](Control* control) { pcm(P, P, {100'000'000}, control); },
+        [&](Control* control) { return frechet(P, P, slow, control); },
+        [&](Control* control) { return dtw(P, P, threaded, control); },
+        [&](Control* control) { return dtw_path(P, P, threaded, control); },
+        [&](Control* control) { return pcm(P, P, {100'000'000}, control); },
         [&](Control* control) { pdist(many, slow, out.data(), {1}, control); },
         [&](Control* control) { pdist(many, slow, out.data(), {3}, control); },
-        [&](Control* control) { Prepared(P, slow)(P, control); },
+        [&](Control* control) { return Prepared(P, slow)(P, control); },
     };
     for (std::size_t c = 0; c < calls.size(); ++c) {
         const check::Note note("call " + std::to_string(c));

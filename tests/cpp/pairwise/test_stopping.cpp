@@ -69,25 +69,27 @@ void single_calls() {
         if constexpr (std::is_same_v<decltype(options), CurveLengthOptions>) {
             options.scale = LengthScale::range;
         }
-        hears(options.measure, [&](Control* control) { evaluate(options, few, Q, control); });
+        hears(options.measure,
+              [&](Control* control) { return evaluate(options, few, Q, control); });
         hears(std::string(options.measure) + ", the other way round",
-              [&](Control* control) { evaluate(options, P, few, control); });
+              [&](Control* control) { return evaluate(options, P, few, control); });
     });
     const AreaOptions by_arc_length{Spacing::arc_length};
     const AreaOptions by_x{Spacing::x}, matched{Spacing::matched};
     const CurveLengthOptions by_range{LengthScale::range};
-    hears("area, matched", [&](Control* control) { area(P, Q, matched, control); });
-    hears("area by arc length", [&](Control* control) { area(P, Q, by_arc_length, control); });
-    hears("area_quads", [&](Control* control) { area_quads(P, few, {}, control); });
-    hears("pcm_match", [&](Control* control) { pcm_match(P, Q, {2}, control); });
+    hears("area, matched", [&](Control* control) { return area(P, Q, matched, control); });
+    hears("area by arc length",
+          [&](Control* control) { return area(P, Q, by_arc_length, control); });
+    hears("area_quads", [&](Control* control) { return area_quads(P, few, {}, control); });
+    hears("pcm_match", [&](Control* control) { return pcm_match(P, Q, {2}, control); });
     hears("residuals",
           [&](Control* control) { curve_length_residuals(P, Q, out.data(), by_range, control); });
-    hears("dtw_path", [&](Control* control) { dtw_path(few, Q, {}, control); });
-    hears("frechet_path", [&](Control* control) { frechet_path(few, Q, {}, control); });
+    hears("dtw_path", [&](Control* control) { return dtw_path(few, Q, {}, control); });
+    hears("frechet_path", [&](Control* control) { return frechet_path(few, Q, {}, control); });
     DtwOptions window;
     window.window = 1;
     hears("dtw_table", [&](Control* control) { dtw_table(few, Q, out.data(), window, control); });
-    hears("sum_of_squares", [&](Control* control) { sum_of_squares(P, Q, control); });
+    hears("sum_of_squares", [&](Control* control) { return sum_of_squares(P, Q, control); });
     hears("gradient of sum_of_squares",
           [&](Control* control) { sum_of_squares_and_gradient(P, Q, out.data(), control); });
     hears("gradient of area",
@@ -95,10 +97,11 @@ void single_calls() {
     hears("gradient of dtw",
           [&](Control* control) { value_and_gradient(DtwOptions{}, few, Q, out.data(), control); });
     hears("frechet_continuous_path",
-          [&](Control* control) { frechet_continuous_path(few, Q, {}, control); });
-    hears("frechet_within", [&](Control* control) { frechet_within(few, Q, 1e9, true, control); });
-    hears("mse", [&](Control* control) { mse(P, Q, control); });
-    hears("mae", [&](Control* control) { mae(P, Q, control); });
+          [&](Control* control) { return frechet_continuous_path(few, Q, {}, control); });
+    hears("frechet_within",
+          [&](Control* control) { return frechet_within(few, Q, 1e9, true, control); });
+    hears("mse", [&](Control* control) { return mse(P, Q, control); });
+    hears("mae", [&](Control* control) { return mae(P, Q, control); });
     hears("normalize", [&](Control* control) { normalize(P, Q, out.data(), "Q", control); });
 }
 
@@ -117,7 +120,7 @@ void batches() {
         hears("cdist, " + name,
               [&](Control* control) { cdist(rows, columns, options, out.data(), {}, control); });
         hears("Prepared, " + name,
-              [&](Control* control) { Prepared(P, options, control)(Q, control); });
+              [&](Control* control) { return Prepared(P, options, control)(Q, control); });
         hears("Index, " + name, [&](Control* control) { Index(rows, options, control); });
     });
 }
@@ -161,8 +164,8 @@ void what_a_report_throws_ends_the_call() {
         options.workers = workers;
         const Index index(curves, DtwOptions{});
         const std::vector<Call> calls{
-            [&](Control* control) { dtw(P, Q, options, control); },
-            [&](Control* control) { dtw_path(P, Q, options, control); },
+            [&](Control* control) { return dtw(P, Q, options, control); },
+            [&](Control* control) { return dtw_path(P, Q, options, control); },
             [&](Control* control) {
                 cdist(curves, curves, options, out.data(), {workers}, control);
             },

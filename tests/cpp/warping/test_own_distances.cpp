@@ -143,14 +143,14 @@ void others_refuse() {
         refused([&] { curvewise::Prepared(P, measure); });
         refused([&] { curvewise::Index(all, measure); });
     }
-    refused([&] { subsequences(P, Q, 1, with(DtwOptions(), own)); });
-    refused([&] { subsequences(P, Q, 1, with(FrechetOptions(), own)); });
+    refused([&] { return subsequences(P, Q, 1, with(DtwOptions(), own)); });
+    refused([&] { return subsequences(P, Q, 1, with(FrechetOptions(), own)); });
     refused([&] { value_and_gradient(with(DtwOptions(), own), P, Q, out.data()); });
     refused([&] { value_and_gradient(with(FrechetOptions(), own), P, Q, out.data()); });
-    refused([&] { hausdorff(P, Q, with(curvewise::HausdorffOptions(), own)); });
-    refused([&] { evaluate(with(curvewise::ErpOptions(), own), P, Q); });
-    refused([&] { evaluate(with(curvewise::LcssOptions(), own), P, Q); });
-    refused([&] { evaluate(with(curvewise::WdtwOptions(), own), P, Q); });
+    refused([&] { return hausdorff(P, Q, with(curvewise::HausdorffOptions(), own)); });
+    refused([&] { return evaluate(with(curvewise::ErpOptions(), own), P, Q); });
+    refused([&] { return evaluate(with(curvewise::LcssOptions(), own), P, Q); });
+    refused([&] { return evaluate(with(curvewise::WdtwOptions(), own), P, Q); });
 }
 
 }  // namespace

@@ -242,6 +242,9 @@ def declared(header: Path) -> tuple[Counter[str], set[str]]:
     """Return the functions of a header, overloads counted, and its types."""
     text = header.read_text(encoding="utf-8")
     text = re.sub(r"^namespace (?!curvewise)\w+ \{.*?^\}", "", text, flags=re.MULTILINE | re.DOTALL)
+    # A long type stands in a line of its own, before the name of the function.
+    text = re.sub(r"^\[\[nodiscard\]\] (\w+ [\w:]+)\n", r"\1 ", text, flags=re.MULTILINE)
+    text = text.replace("[[nodiscard]] ", "")
     functions = re.findall(r"^[A-Za-z][^\n;=]*?[ *&](\w+)\(", text, flags=re.MULTILINE)
     kinds = r"^(?:struct|class|enum class) (?:CURVEWISE_EXPORT )?(\w+)[^;\n]*\{|^using (\w+) ="
     types = {a or b for a, b in re.findall(kinds, text, flags=re.MULTILINE)}
