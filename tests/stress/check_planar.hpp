@@ -84,9 +84,10 @@ class PlanarCheck {
         options.crossing = static_cast<curvewise::Crossing>(choices_.index(2));
         options.squared = choices_.one_in(3);
         const double value = check_ways("area", options);
-        const curvewise_area_options given = {static_cast<int>(options.spacing),
-                                              static_cast<int>(options.crossing),
-                                              options.squared ? 1 : 0};
+        curvewise_area_options given = CURVEWISE_AREA_DEFAULTS;
+        given.spacing = static_cast<int>(options.spacing);
+        given.crossing = static_cast<int>(options.crossing);
+        given.squared = options.squared ? 1 : 0;
         const curvewise_curve p = as_c(P_), q = as_c(Q_);
         double found = -1.0;
         curvewise_area(&p, &q, &given, &found, nullptr);
@@ -122,7 +123,8 @@ class PlanarCheck {
         const double value = check_ways("pcm", options);
         const curvewise::PcmMatch match = curvewise::pcm_match(P_, Q_, options);
         record_.same("pcm_match", match.value, value, with_);
-        const curvewise_pcm_options given = {options.offsets, 0};
+        curvewise_pcm_options given = CURVEWISE_PCM_DEFAULTS;
+        given.offsets = options.offsets;
         const curvewise_curve p = as_c(P_), q = as_c(Q_);
         double found = -1.0;
         curvewise_pcm(&p, &q, &given, &found, nullptr);
