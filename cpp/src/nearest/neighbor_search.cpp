@@ -9,6 +9,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// Leaves lie apart in memory. If a search needs more of them than these, or an eighth of all, it is
+// faster to read all first bounds in order.
+constexpr std::ptrdiff_t few_leaves = 256;
+
 // What a bound takes, for the poller: some microseconds.
 constexpr std::int64_t bound_effort = 1 << 11;
 
@@ -59,12 +63,34 @@ const std::vector<BoundForest::Planted>& NeighborSearch::trees() const noexcept 
     return seen_.forest == nullptr ? none : seen_.forest->trees();
 }
 
-std::ptrdiff_t NeighborSearch::bound_rest(TargetQuery& query) {
-    const std::ptrdiff_t first = seen_.forest == nullptr ? 0 : seen_.forest->size();
-    const std::ptrdiff_t count = seen_.size - first;
-    quick_.resize(static_cast<std::size_t>(std::max(count, BoundTree::leaf_rows)));
-    query.quick(first, count, quick_.data());
-    return first;
+std::ptrdiff_t NeighborSearch::planted() const noexcept {
+    return seen_.forest == nullptr ? 0 : seen_.forest->size();
+}
+
+void NeighborSearch::bound(TargetQuery& query, std::ptrdiff_t first, std::ptrdiff_t end) {
+    quick_.resize(static_cast<std::size_t>(std::max(end - first, BoundTree::leaf_rows)));
+    query.quick(first, end - first, quick_.data());
+}
+
+std::ptrdiff_t NeighborSearch::all_leaves() const noexcept {
+    std::ptrdiff_t all = 0;
+    for (const BoundForest::Planted& planted : trees()) all += planted.tree->boxes(0);
+    return all;
+}
+
+BoundTree::Leaf NeighborSearch::held(const OpenLeaf& leaf) const noexcept {
+    return trees()[static_cast<std::size_t>(leaf.tree)].tree->leaf(leaf.place);
+}
+
+template <class Use>
+void NeighborSearch::for_targets(const OpenLeaf& leaf, Use use) const {
+    const std::ptrdiff_t first = trees()[static_cast<std::size_t>(leaf.tree)].first;
+    const BoundTree::Leaf targets = held(leaf);
+    for (std::ptrdiff_t k = 0; k < targets.count; ++k) use(first + targets.places[k], k);
+}
+
+void NeighborSearch::bound(TargetQuery& query, const OpenLeaf& leaf) {
+    query.quick(trees()[static_cast<std::size_t>(leaf.tree)].first, held(leaf), quick_.data());
 }
 
 NeighborSearch::BoxBounds NeighborSearch::bounds_of(TargetQuery& query, const BoundTree& tree,
@@ -83,10 +109,13 @@ std::vector<Neighbor> NeighborSearch::nearest(TargetQuery& query, std::int64_t a
     left_out_ = left_out;
     best_.clear();
     heap_.clear();
+    leaves_.clear();
+    most_leaves_ = static_cast<std::size_t>(std::max(few_leaves, all_leaves() / 8));
     for (std::size_t t = 0; t < trees().size(); ++t) {
         push_boxes(query, static_cast<int>(t), trees()[t].tree->levels() - 1, 0);
     }
-    const std::ptrdiff_t first = bound_rest(query);
+    const std::ptrdiff_t first = planted();
+    bound(query, first, seen_.size);
     for (std::ptrdiff_t j = first; j < seen_.size; ++j) {
         if (is_wanted(j)) heap_.push_back({quick_[static_cast<std::size_t>(j - first)], j, 0});
     }
@@ -127,15 +156,31 @@ void NeighborSearch::look_into(TargetQuery& query, const Candidate& box) {
     if (box.level > 0) {
         return push_boxes(query, box.tree, box.level - 1, place * BoundTree::fan);
     }
-    const BoundForest::Planted& planted = trees()[static_cast<std::size_t>(box.tree)];
-    const BoundTree::Leaf leaf = planted.tree->leaf(place);
+    if (leaves_.size() == most_leaves_) return look_into_all(query);
+    leaves_.push_back({place, box.tree});
+    bound(query, leaves_.back());
     const double most = cutoff();
-    query.quick(planted.first, leaf, quick_.data());
-    for (std::ptrdiff_t k = 0; k < leaf.count; ++k) {
-        const std::ptrdiff_t target = planted.first + leaf.places[k];
+    for_targets(leaves_.back(), [&](std::ptrdiff_t target, std::ptrdiff_t k) {
         const double bound = quick_[static_cast<std::size_t>(k)];
         if (!(bound > most) && is_wanted(target)) push({bound, target, 0});
+    });
+}
+
+// The targets that are in no leaf so far, in the order of their memory.
+void NeighborSearch::look_into_all(TargetQuery& query) {
+    const auto is_box = [](const Candidate& candidate) { return candidate.target < 0; };
+    heap_.erase(std::remove_if(heap_.begin(), heap_.end(), is_box), heap_.end());
+    clear_marks();
+    for (const OpenLeaf& leaf : leaves_) {
+        for_targets(leaf, [&](std::ptrdiff_t target, std::ptrdiff_t /*k*/) { mark(target); });
     }
+    bound(query, 0, planted());
+    const double most = cutoff();
+    for (std::ptrdiff_t j = 0; j < planted(); ++j) {
+        const double bound = quick_[static_cast<std::size_t>(j)];
+        if (!(bound > most) && !is_marked(j) && is_wanted(j)) heap_.push_back({bound, j, 0});
+    }
+    std::make_heap(heap_.begin(), heap_.end(), ComesLater());
 }
 
 // Raises the bound until another candidate comes first, or no candidate remains.
@@ -163,8 +208,18 @@ std::vector<Neighbor> NeighborSearch::within(TargetQuery& query, std::int64_t al
     const auto look_at = [&](std::ptrdiff_t target) {
         if (is_wanted(target)) look_within(query, target, radius, with_distances, found);
     };
-    for_marked_within(query, radius, look_at);
-    const std::ptrdiff_t first = bound_rest(query);
+    leaves_.clear();
+    const std::ptrdiff_t half = all_leaves() / 2;
+    most_leaves_ = static_cast<std::size_t>(std::max(std::min(few_leaves, half), half / 4));
+    for (std::size_t t = 0; t < trees().size(); ++t) {
+        find_leaves(query, static_cast<int>(t), trees()[t].tree->levels() - 1, 0, radius);
+    }
+    std::ptrdiff_t first = 0;
+    if (leaves_.size() <= most_leaves_) {
+        first = planted();
+        for_marked_within(query, radius, look_at);
+    }
+    bound(query, first, seen_.size);
     for (std::ptrdiff_t j = first; j < seen_.size; ++j) {
         if (!(quick_[static_cast<std::size_t>(j - first)] > radius)) look_at(j);
     }
@@ -175,10 +230,12 @@ std::vector<Neighbor> NeighborSearch::within(TargetQuery& query, std::int64_t al
 // In the order of the targets, which trees do not have.
 template <class LookAt>
 void NeighborSearch::for_marked_within(TargetQuery& query, double radius, LookAt look_at) {
-    if (trees().empty()) return;
-    marks_.assign(static_cast<std::size_t>((seen_.forest->size() + 63) / 64), 0);
-    for (const BoundForest::Planted& planted : trees()) {
-        mark_within(query, planted, planted.tree->levels() - 1, 0, radius);
+    clear_marks();
+    for (const OpenLeaf& leaf : leaves_) {
+        bound(query, leaf);
+        for_targets(leaf, [&](std::ptrdiff_t target, std::ptrdiff_t k) {
+            if (!(quick_[static_cast<std::size_t>(k)] > radius)) mark(target);
+        });
     }
     for (std::size_t w = 0; w < marks_.size(); ++w) {
         auto target = static_cast<std::ptrdiff_t>(64 * w);
@@ -188,23 +245,17 @@ void NeighborSearch::for_marked_within(TargetQuery& query, double radius, LookAt
     }
 }
 
-void NeighborSearch::mark_within(TargetQuery& query, const BoundForest::Planted& planted, int level,
-                                 std::ptrdiff_t first, double radius) {
-    const BoundTree& tree = *planted.tree;
-    const BoxBounds boxes = bounds_of(query, tree, level, first);
+void NeighborSearch::find_leaves(TargetQuery& query, int tree, int level, std::ptrdiff_t first,
+                                 double radius) {
+    const BoxBounds boxes =
+        bounds_of(query, *trees()[static_cast<std::size_t>(tree)].tree, level, first);
     poll(poller_, bound_effort);
-    for (std::ptrdiff_t b = 0; b < boxes.count; ++b) {
+    for (std::ptrdiff_t b = 0; b < boxes.count && leaves_.size() <= most_leaves_; ++b) {
         if (boxes.bounds[b] > radius) continue;
         if (level > 0) {
-            mark_within(query, planted, level - 1, (first + b) * BoundTree::fan, radius);
-            continue;
-        }
-        const BoundTree::Leaf leaf = tree.leaf(first + b);
-        query.quick(planted.first, leaf, quick_.data());
-        for (std::ptrdiff_t k = 0; k < leaf.count; ++k) {
-            if (quick_[static_cast<std::size_t>(k)] > radius) continue;
-            const auto target = static_cast<std::size_t>(planted.first + leaf.places[k]);
-            marks_[target / 64] |= std::uint64_t{1} << (target % 64);
+            find_leaves(query, tree, level - 1, (first + b) * BoundTree::fan, radius);
+        } else {
+            leaves_.push_back({first + b, tree});
         }
     }
 }

@@ -53,6 +53,10 @@ class NeighborSearch {
         int tree = 0;
     };
 
+    struct OpenLeaf {
+        std::ptrdiff_t place;
+        int tree;
+    };
     // A type, not a function, so that the heap's loops hold its code.
     struct ComesLater {
         bool operator()(const Candidate& a, const Candidate& b) const noexcept {
@@ -65,8 +69,9 @@ class NeighborSearch {
     void push(const Candidate& candidate);
     // Puts boxes of a tree on the heap, from the `first` one of their level on.
     void push_boxes(TargetQuery& query, int tree, int level, std::ptrdiff_t first);
-    // Puts what is in a box on the heap.
+    // Puts what is in a box on the heap, or in all.
     void look_into(TargetQuery& query, const Candidate& box);
+    void look_into_all(TargetQuery& query);
     void look_at(TargetQuery& query, Candidate candidate);
     // The bounds of up to BoundTree::fan boxes, from the `first` one of their level on.
     struct BoxBounds {
@@ -75,17 +80,31 @@ class NeighborSearch {
     };
     static BoxBounds bounds_of(TargetQuery& query, const BoundTree& tree, int level,
                                std::ptrdiff_t first);
-    // Calls look_at(target) for the targets in trees whose first bounds are within the radius.
+    // Finds the leaves of a tree with bounds within the radius, or more leaves than most_leaves_.
+    void find_leaves(TargetQuery& query, int tree, int level, std::ptrdiff_t first, double radius);
+    // Calls look_at(target) for the targets in leaves_ whose first bounds are within the radius.
     template <class LookAt>
     void for_marked_within(TargetQuery& query, double radius, LookAt look_at);
-    // Marks those in boxes of a tree.
-    void mark_within(TargetQuery& query, const BoundForest::Planted& planted, int level,
-                     std::ptrdiff_t first, double radius);
     // Adds a target whose first bound is within the radius to `found`, if it is, too.
     void look_within(TargetQuery& query, std::ptrdiff_t target, double radius, bool with_distances,
                      std::vector<Neighbor>& found);
-    // Writes the first bounds of the targets in no tree, and returns the first of these.
-    std::ptrdiff_t bound_rest(TargetQuery& query);
+    // Writes the first bounds of targets, or of those in a leaf, to quick_.
+    void bound(TargetQuery& query, std::ptrdiff_t first, std::ptrdiff_t end);
+    void bound(TargetQuery& query, const OpenLeaf& leaf);
+    // Calls use(target, its place in the leaf).
+    template <class Use>
+    void for_targets(const OpenLeaf& leaf, Use use) const;
+    BoundTree::Leaf held(const OpenLeaf& leaf) const noexcept;
+    std::ptrdiff_t all_leaves() const noexcept;
+    // The number of targets in trees, which are the first ones.
+    std::ptrdiff_t planted() const noexcept;
+    void clear_marks() { marks_.assign(static_cast<std::size_t>((planted() + 63) / 64), 0); }
+    void mark(std::ptrdiff_t target) noexcept {
+        marks_[static_cast<std::size_t>(target / 64)] |= std::uint64_t{1} << (target % 64);
+    }
+    bool is_marked(std::ptrdiff_t target) const noexcept {
+        return (marks_[static_cast<std::size_t>(target / 64)] >> (target % 64) & 1) != 0;
+    }
     const std::vector<BoundForest::Planted>& trees() const noexcept;
     // The distance, or nan where it is not wanted, of a target that is within the radius.
     std::optional<double> distance_within(TargetQuery& query, std::ptrdiff_t target, double radius,
@@ -103,6 +122,8 @@ class NeighborSearch {
     std::vector<double> quick_;  // first bounds, with room for those of a leaf
     std::vector<Candidate> heap_;
     std::vector<std::uint64_t> marks_;  // one bit for each target in a tree
+    std::vector<OpenLeaf> leaves_;
+    std::size_t most_leaves_ = 0;
     std::ptrdiff_t left_out_ = -1;
     std::vector<Neighbor> best_;  // a heap with the furthest on top
     std::size_t most_ = 0;

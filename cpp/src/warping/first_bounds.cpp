@@ -51,7 +51,6 @@ void FirstBounds::finish(double* bounds, std::ptrdiff_t count) const noexcept {
 
 template <class Norm>
 double FirstBounds::of_curve(const KeptCurve& curve) const noexcept {
-    if (!is_bounded(curve.largest())) return 0.0;
     const std::ptrdiff_t dim = dim_;
     const double* const p = summary_.data();
     const double* const q = curve.summary();
@@ -115,18 +114,27 @@ void FirstBounds::quick(std::ptrdiff_t first, std::ptrdiff_t count, double* boun
     with_norm(box_metric_, [&](auto norm) {
         kept_.in_parts(first, count, [&](const KeptCurve* curves, std::ptrdiff_t part) {
             for (std::ptrdiff_t k = 0; k < part; ++k) {
-                *bounds++ = of_curve<decltype(norm)>(curves[k]);
+                if (is_bounded(curves[k].largest())) {
+                    bounds[k] = of_curve<decltype(norm)>(curves[k]);
+                }
             }
+            bounds += part;
         });
     });
 }
 
 void FirstBounds::quick(std::ptrdiff_t first, const pairwise::BoundTree::Leaf& leaf,
                         double* bounds) const {
+    // The curves of a leaf lie apart in memory. Loops that only read let the processor wait for
+    // many of them at once.
+    const KeptCurve* curves[pairwise::BoundTree::leaf_rows];
+    double largest[pairwise::BoundTree::leaf_rows];
+    for (std::ptrdiff_t k = 0; k < leaf.count; ++k) curves[k] = &kept_[first + leaf.places[k]];
+    for (std::ptrdiff_t k = 0; k < leaf.count; ++k) largest[k] = curves[k]->largest();
     std::fill_n(bounds, leaf.count, 0.0);
     with_norm(box_metric_, [&](auto norm) {
         for (std::ptrdiff_t k = 0; k < leaf.count; ++k) {
-            bounds[k] = of_curve<decltype(norm)>(kept_[first + leaf.places[k]]);
+            if (is_bounded(largest[k])) bounds[k] = of_curve<decltype(norm)>(*curves[k]);
         }
     });
 }

@@ -41,6 +41,7 @@ class FirstBounds {
    private:
     bool is_frechet() const noexcept { return options_.recurrence == kernels::Recurrence::frechet; }
     bool is_open() const noexcept { return options_.open_begin || options_.open_end; }
+    // Of a curve that has bounds.
     template <class Norm>
     double of_curve(const KeptCurve& curve) const noexcept;
     template <class Norm>

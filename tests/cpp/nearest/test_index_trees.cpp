@@ -276,6 +276,39 @@ void trees_change_no_count() {
     }
 }
 
+// A search that needs many leaves reads all first bounds instead, once it has read the first ones.
+void many_leaves_are_read_in_order() {
+    Random random(25);
+    Poller poller(nullptr);
+    const auto measure = pairwise::batch_measure(FrechetOptions{});
+    const auto targets = measure->make_targets();
+    std::vector<Curve> curves;
+    for (int j = 0; j < 300 * leaf; ++j) {
+        curves.push_back(j % 2 == 0 ? random.curve(2, 2) : random.lattice_curve(2, 2));
+    }
+    targets->reserve(views_of(curves), true);
+    for (const Curve& curve : curves) {
+        targets->add(CheckedCurve(curve, "curve", poller, false), poller);
+    }
+    targets->plant(poller);
+    Seen seen = targets->seen();
+    std::vector<bool> removed(1000);
+    for (std::size_t j = 0; j < removed.size(); j += 3) removed[j] = true;
+    seen.removed = std::make_shared<const std::vector<bool>>(removed);
+    Seen without_trees = seen;
+    without_trees.forest = nullptr;
+    NeighborSearch search(*targets, seen, poller), linear(*targets, without_trees, poller);
+    const auto query = targets->query(CheckedCurve(curves[4], "P", poller, false), poller);
+    for (const std::ptrdiff_t k : {std::ptrdiff_t{1}, 200 * leaf, 290 * leaf}) {
+        const std::vector<Neighbor> found = search.nearest(*query, 0, k, 4);
+        check_equal(found, linear.nearest(*query, 0, k, 4));
+        const double radius = found.back().distance;
+        check_equal(search.within(*query, 0, radius, true, 4),
+                    linear.within(*query, 0, radius, true, 4));
+        CHECK(are_equal(search.record(), linear.record()));
+    }
+}
+
 // Groups far apart: a search looks into few leaves.
 class Counted final : public pairwise::TargetQuery {
    public:
@@ -351,5 +384,6 @@ int main() {
          {"answers are right after every addition", answers_are_right_after_every_addition},
          {"removed curves are in no answer", removed_curves_are_in_no_answer},
          {"trees change no count", trees_change_no_count},
+         {"many leaves are read in order", many_leaves_are_read_in_order},
          {"most bounds are left out", most_bounds_are_left_out}});
 }
