@@ -27,7 +27,6 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "continuous/boxed_curve.hpp"
 #include "continuous/exact_signs.hpp"
@@ -38,6 +37,7 @@
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::continuous {
 
@@ -53,8 +53,8 @@ class BackwardCurve {
     const BoxedCurve& boxed() const noexcept { return boxed_; }
 
    private:
-    static std::vector<double> backward(const CurveView& curve) {
-        std::vector<double> points;
+    static runtime::ScratchVector<double> backward(const CurveView& curve) {
+        runtime::ScratchVector<double> points;
         points.reserve(static_cast<std::size_t>(curve.size() * curve.dim()));
         for (std::ptrdiff_t i = curve.size() - 1; i >= 0; --i) {
             for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) points.push_back(curve(i, c));
@@ -62,7 +62,7 @@ class BackwardCurve {
         return points;
     }
 
-    std::vector<double> points_;
+    runtime::ScratchVector<double> points_;
     CurveView view_;
     BoxedCurve boxed_;
 };

@@ -9,11 +9,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::continuous {
 
@@ -44,34 +44,34 @@ class BoxedCurve {
     const double* point(std::ptrdiff_t i) const noexcept {
         return data_ + i * (Dim > 0 ? Dim : dim_);
     }
-    int levels() const noexcept { return static_cast<int>(levels_.size()); }
+    int levels() const noexcept { return static_cast<int>(first_number_.size()) - 1; }
     // The box around the edges from leaf 2^level b on: its least corner, then its greatest.
     template <int Dim>
     const double* box(int level, std::ptrdiff_t b) const noexcept {
-        return levels_[static_cast<std::size_t>(level)].data() + 2 * b * (Dim > 0 ? Dim : dim_);
+        return boxes_.data() + first_number_[static_cast<std::size_t>(level)] +
+               2 * b * (Dim > 0 ? Dim : dim_);
     }
     std::ptrdiff_t boxes(int level) const noexcept {
-        const std::size_t numbers = levels_[static_cast<std::size_t>(level)].size();
-        return static_cast<std::ptrdiff_t>(numbers) / (2 * dim_);
+        const auto place = static_cast<std::size_t>(level);
+        return (first_number_[place + 1] - first_number_[place]) / (2 * dim_);
     }
 
    private:
-    using Boxes = std::vector<double>;
-
     void copy(const CurveView& curve, const RangeScale& range, Poller& poller);
     void add_boxes(Poller& poller);
-    void add_leaves(Poller& poller);
-    void add_level(Poller& poller);
-    // Adds a box around a point.
-    double* add_box(Boxes& boxes, const double* x) const;
+    void fill_leaves(Poller& poller);
+    void fill_level(int level, Poller& poller);
+    // Makes the box whose least corner is at `low` that of a point.
+    void put_box_around(const double* x, double* low) const noexcept;
     // Grows the box whose least corner is at `low` to hold another.
     void grow(double* low, const double* least, const double* greatest) const noexcept;
 
     std::ptrdiff_t n_;
     std::ptrdiff_t dim_;
-    std::vector<double> points_;  // none where these are another's
+    runtime::ScratchVector<double> points_;  // none where these are another's
     const double* data_;
-    std::vector<Boxes> levels_;
+    runtime::ScratchVector<double> boxes_;                 // level by level
+    runtime::ScratchVector<std::ptrdiff_t> first_number_;  // of each level, and the end of all
 };
 
 // The squares of distances, as rounded sums of rounded squares.

@@ -10,10 +10,10 @@
 #include <cstddef>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "continuous/free_space.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::continuous {
 
@@ -46,7 +46,7 @@ class CouplingWalk {
 
     bool succeeds(const Radius& radius) const {
         if (!edges_.vertex_is_free(0, 0, radius)) return false;
-        std::vector<Run> runs, next;
+        runtime::ScratchVector<Run> runs, next;
         runs.push_back({0, last_free(0, 0, radius)});
         for (std::ptrdiff_t i = 1; i < rows_ && !runs.empty(); ++i) {
             advance(i, runs, radius, next);
@@ -62,8 +62,8 @@ class CouplingWalk {
         std::ptrdiff_t last;
     };
 
-    void advance(std::ptrdiff_t i, const std::vector<Run>& from, const Radius& radius,
-                 std::vector<Run>& to) const {
+    void advance(std::ptrdiff_t i, const runtime::ScratchVector<Run>& from, const Radius& radius,
+                 runtime::ScratchVector<Run>& to) const {
         to.clear();
         std::ptrdiff_t next = 0;  // first column that no run of `to` has tested
         for (const Run& run : from) {

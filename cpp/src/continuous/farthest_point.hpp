@@ -20,11 +20,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "continuous/boxed_curve.hpp"
 #include "continuous/nearest.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::continuous {
 
@@ -153,8 +153,8 @@ class FarthestPointSearch {
     Poller& poller_;
     double slack_;
     FoundPoint best_;
-    std::vector<double> point_;
-    std::vector<Stretch> stretches_;
+    runtime::ScratchVector<double> point_;
+    runtime::ScratchVector<Stretch> stretches_;
 };
 
 }  // namespace curvewise::continuous

@@ -5,7 +5,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+
+#include "runtime/scratch.hpp"
 
 namespace curvewise::continuous {
 
@@ -25,7 +26,7 @@ class Integer {
     friend Integer operator*(const Integer& a, const Integer& b);
 
    private:
-    using Limbs = std::vector<std::uint32_t>;
+    using Limbs = runtime::ScratchVector<std::uint32_t>;
 
     Integer(Limbs limbs, bool negative) noexcept;
     // -1, 0 or 1: how |a| lies to |b|.

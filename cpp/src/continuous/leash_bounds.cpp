@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/scratch.hpp"
+
 namespace curvewise::continuous {
 namespace {
 
@@ -88,7 +90,7 @@ double CurveSummary::bound_of_box(const double* box, std::ptrdiff_t dim) const n
 double run_bound(const BoxedCurve& P, const BoxedCurve& Q, std::ptrdiff_t most_runs) {
     const int p_level = level_with(P, most_runs), q_level = level_with(Q, most_runs);
     const std::ptrdiff_t rows = P.boxes(p_level), columns = Q.boxes(q_level), dim = P.dim();
-    std::vector<double> of_columns(static_cast<std::size_t>(columns), infinity);
+    runtime::ScratchVector<double> of_columns(static_cast<std::size_t>(columns), infinity);
     double furthest = 0.0;
     for (std::ptrdiff_t a = 0; a < rows; ++a) {
         double of_row = infinity;

@@ -11,11 +11,11 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "continuous/boxed_curve.hpp"
 #include "curves/checks.hpp"
 #include "pairwise/bound_tree.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::continuous {
 
@@ -40,7 +40,7 @@ class CurveSummary {
 
    private:
     double largest_;
-    std::vector<double> numbers_;
+    runtime::ScratchVector<double> numbers_;
 };
 
 // At most `most_runs` of either curve.

@@ -25,6 +25,7 @@
 
 #include "curves/moved_curve.hpp"
 #include "curvewise/gradient.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise {
 namespace {
@@ -108,8 +109,8 @@ class Leash {
     }
 
    private:
-    std::vector<double> differences() const {
-        std::vector<double> result;
+    runtime::ScratchVector<double> differences() const {
+        runtime::ScratchVector<double> result;
         for (std::ptrdiff_t c = 0; c < P_.dim(); ++c) {
             result.push_back(q_.coordinate(Q_, c) - p_.coordinate(P_, c));
         }
@@ -158,7 +159,7 @@ class Leash {
     const CurveView& P_;
     const CurveView& Q_;
     Place p_, q_;
-    std::vector<double> direction_;  // from P to Q, of length 1
+    runtime::ScratchVector<double> direction_;  // from P to Q, of length 1
     double length_ = 0.0;
 };
 
@@ -172,7 +173,7 @@ struct Event {
 class EventSearch {
    public:
     EventSearch(const CurveView& P, const CurveView& Q, const std::vector<Row>& rows) {
-        std::vector<double> lengths;
+        runtime::ScratchVector<double> lengths;
         for (const Row& row : rows) {
             lengths.push_back(Leash(P, Q, row).length());
             if (lengths.back() <= longest_) continue;
@@ -256,8 +257,8 @@ Event deciding_event(const CurveView& P, const CurveView& Q,
 }
 
 // For a distance beyond the range, the loss of small coordinates is negligible.
-std::vector<double> shrunk(const CurveView& curve) {
-    std::vector<double> points;
+runtime::ScratchVector<double> shrunk(const CurveView& curve) {
+    runtime::ScratchVector<double> points;
     for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
         for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) points.push_back(curve(i, c) * 0x1p-100);
     }
@@ -273,7 +274,7 @@ double value_and_gradients(const FrechetContinuousOptions& options, const CurveV
     if (out.by_q != nullptr) std::fill_n(out.by_q, Q.size() * Q.dim(), 0.0);
     if (value == 0.0) return value;
     if (std::isinf(value)) {  // the derivative equals that of smaller curves
-        const std::vector<double> p = shrunk(P), q = shrunk(Q);
+        const runtime::ScratchVector<double> p = shrunk(P), q = shrunk(Q);
         value_and_gradients(options, CurveView(p.data(), P.size(), P.dim()),
                             CurveView(q.data(), Q.size(), Q.dim()), out, control);
         return value;

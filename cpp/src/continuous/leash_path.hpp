@@ -20,6 +20,7 @@
 #include "continuous/reachable.hpp"
 #include "curves/range_scale.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::continuous {
 
@@ -102,7 +103,7 @@ class LeashPathTrace {
         const std::ptrdiff_t last = diagram_.rows() - 1;
         const auto block =
             static_cast<std::ptrdiff_t>(std::ceil(std::sqrt(static_cast<double>(last))));
-        std::vector<Runs> marks(1), rows;
+        runtime::ScratchVector<Runs> marks(1), rows;
         diagram_.start(radius_, marks[0]);
         for (std::ptrdiff_t first = 0; first + block < last; first += block) {
             walk(first, first + block, marks.back(), rows);
@@ -124,7 +125,7 @@ class LeashPathTrace {
 
    private:
     void walk(std::ptrdiff_t first, std::ptrdiff_t last, const Runs& start,
-              std::vector<Runs>& rows) const {
+              runtime::ScratchVector<Runs>& rows) const {
         rows.resize(static_cast<std::size_t>(last - first + 1));
         rows[0] = start;
         for (std::ptrdiff_t i = first; i < last; ++i) {
@@ -249,7 +250,7 @@ class LeashPathTrace {
     std::ptrdiff_t i_ = 0;  // the path is in row i_, on edge j_
     std::ptrdiff_t j_ = 0;
     double x_ = 0.0, y_ = 0.0;
-    std::vector<FreePart> chain_;
+    runtime::ScratchVector<FreePart> chain_;
     std::size_t chain_of_ = 0;  // the run that the chain begins behind
 };
 

@@ -12,9 +12,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 #include "continuous/free_space.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::continuous {
 
@@ -25,7 +25,7 @@ struct Run {
     std::ptrdiff_t last;
     Bound low;
 };
-using Runs = std::vector<Run>;
+using Runs = runtime::ScratchVector<Run>;
 
 template <int Dim>
 class Diagram {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "continuous/reachable.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::continuous {
 
@@ -55,7 +55,7 @@ class Trail {
     std::ptrdiff_t most_runs_;
     std::ptrdiff_t held_ = 0;
     std::ptrdiff_t stride_ = 8;
-    std::vector<Mark> marks_;
+    runtime::ScratchVector<Mark> marks_;
 };
 
 }  // namespace curvewise::continuous

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+
+#include "runtime/scratch.hpp"
 
 namespace curvewise::curves {
 
@@ -10,7 +11,7 @@ namespace curvewise::curves {
 // or shorter before or behind them.
 class ArcGradient {
    public:
-    explicit ArcGradient(const std::vector<double>& arc_lengths)
+    explicit ArcGradient(const runtime::ScratchVector<double>& arc_lengths)
         : arc_lengths_(arc_lengths), by_arc_length_(arc_lengths.size(), 0.0) {}
 
     // By the fraction of `segment` at which a place is, which has `share` of the length before it.
@@ -43,8 +44,8 @@ class ArcGradient {
     }
 
    private:
-    const std::vector<double>& arc_lengths_;
-    std::vector<double> by_arc_length_;
+    const runtime::ScratchVector<double>& arc_lengths_;
+    runtime::ScratchVector<double> by_arc_length_;
 };
 
 }  // namespace curvewise::curves

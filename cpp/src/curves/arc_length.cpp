@@ -3,9 +3,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "runtime/scratch.hpp"
+
 namespace curvewise::curves {
 
-std::vector<double> arc_lengths(const Polyline& curve, Poller& poller) {
+runtime::ScratchVector<double> arc_lengths(const Polyline& curve, Poller& poller) {
     const auto size = static_cast<std::ptrdiff_t>(curve.size());
     return summed_edges(size, poller, [&](std::ptrdiff_t first, EdgeBlock& edges) {
         const Point* const from = curve.data() + first;
@@ -16,7 +18,8 @@ std::vector<double> arc_lengths(const Polyline& curve, Poller& poller) {
     });
 }
 
-std::vector<double> box_scaled_arc_lengths(const CurveView& curve, const Box& box, Poller& poller) {
+runtime::ScratchVector<double> box_scaled_arc_lengths(const CurveView& curve, const Box& box,
+                                                      Poller& poller) {
     return summed_edges(curve.size(), poller, [&](std::ptrdiff_t first, EdgeBlock& edges) {
         for (std::size_t k = 0; k < edges.count; ++k) {
             const std::ptrdiff_t i = first + static_cast<std::ptrdiff_t>(k);

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "curves/polyline.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::curves {
 
@@ -37,8 +37,8 @@ struct EdgeBlock {
 // write(first, edges) writes the edges from vertex `first` on. Throws Stopped where the poller says
 // so.
 template <class Write>
-std::vector<double> summed_edges(std::ptrdiff_t size, Poller& poller, Write write) {
-    std::vector<double> lengths(static_cast<std::size_t>(size));
+runtime::ScratchVector<double> summed_edges(std::ptrdiff_t size, Poller& poller, Write write) {
+    runtime::ScratchVector<double> lengths(static_cast<std::size_t>(size));
     EdgeBlock edges;
     poller.in_runs(size - 1, 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
         constexpr auto most = static_cast<std::ptrdiff_t>(EdgeBlock::size);
@@ -52,11 +52,12 @@ std::vector<double> summed_edges(std::ptrdiff_t size, Poller& poller, Write writ
 }
 
 // Both throw Stopped where the poller says so.
-std::vector<double> arc_lengths(const Polyline& curve, Poller& poller);
+runtime::ScratchVector<double> arc_lengths(const Polyline& curve, Poller& poller);
 
 // Arc lengths of a curve scaled by a box, from differences of the unscaled coordinates. If the
 // curve lies far from the box, scaled coordinates have lost the bits in which they differ.
-std::vector<double> box_scaled_arc_lengths(const CurveView& curve, const Box& box, Poller& poller);
+runtime::ScratchVector<double> box_scaled_arc_lengths(const CurveView& curve, const Box& box,
+                                                      Poller& poller);
 
 // Throws std::invalid_argument for a curve whose points are all equal.
 void check_length(const CurveView& curve, const std::string& name, const char* measure,
@@ -65,28 +66,28 @@ void check_length(const CurveView& curve, const std::string& name, const char* m
 // A polyline with the arc length at every vertex.
 class ArcCurve {
    public:
-    ArcCurve(Polyline points, std::vector<double> arc_lengths)
+    ArcCurve(Polyline points, runtime::ScratchVector<double> arc_lengths)
         : points_(std::move(points)), arc_lengths_(std::move(arc_lengths)) {}
 
     const Polyline& points() const noexcept { return points_; }
-    const std::vector<double>& arc_lengths() const noexcept { return arc_lengths_; }
+    const runtime::ScratchVector<double>& arc_lengths() const noexcept { return arc_lengths_; }
     double length() const noexcept { return arc_lengths_.back(); }
 
    private:
     Polyline points_;
-    std::vector<double> arc_lengths_;
+    runtime::ScratchVector<double> arc_lengths_;
 };
 
 // A place on a curve, given by the arc lengths of its vertices, that moves forward, in O(1)
 // amortised.
 class ArcPosition {
    public:
-    explicit ArcPosition(const std::vector<double>& arc_lengths) noexcept
+    explicit ArcPosition(const runtime::ScratchVector<double>& arc_lengths) noexcept
         : arc_lengths_(&arc_lengths) {}
 
     // To arc length u, cut at the curve's length; not before where it was.
     void move_to(double u) noexcept {
-        const std::vector<double>& t = *arc_lengths_;
+        const runtime::ScratchVector<double>& t = *arc_lengths_;
         at_ = std::min(u, t.back());
         while (segment_ + 2 < t.size() && t[segment_ + 1] <= at_) ++segment_;
     }
@@ -102,7 +103,7 @@ class ArcPosition {
     }
 
    private:
-    const std::vector<double>* arc_lengths_;
+    const runtime::ScratchVector<double>* arc_lengths_;
     std::size_t segment_ = 0;
     double at_ = 0.0;
 };

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
-#include <vector>
 
 #include "curvewise/curve.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::curves {
 
@@ -36,7 +36,7 @@ class MovedCurve {
     }
 
    private:
-    std::vector<double> points_;
+    runtime::ScratchVector<double> points_;
     std::ptrdiff_t dim_;
 };
 

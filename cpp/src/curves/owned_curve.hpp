@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "curves/checks.hpp"
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::curves {
 
@@ -25,7 +25,7 @@ class OwnedCurve {
    private:
     bool is_flat_;
     std::ptrdiff_t dim_;
-    std::vector<double> points_;
+    runtime::ScratchVector<double> points_;
 };
 
 // The caller's curve where that is of doubles, or a copy of one of floats.

@@ -3,12 +3,12 @@
 
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "curves/box.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::curves {
 
@@ -39,7 +39,7 @@ inline Point interpolate(const Point& a, const Point& b, double h) noexcept {
     return {a.x + h * (b.x - a.x), a.y + h * (b.y - a.y)};
 }
 
-using Polyline = std::vector<Point>;
+using Polyline = runtime::ScratchVector<Point>;
 
 // All throw Stopped where the poller says so.
 Polyline polyline(const CurveView& curve, const RangeScale& range, Poller& poller);

@@ -14,6 +14,7 @@
 #include "curves/checks.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/subsequence.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/ground_distance.hpp"
 #include "warping/sweep.hpp"
@@ -59,7 +60,7 @@ class LeastOfRow {
    private:
     std::ptrdiff_t size_;
     std::ptrdiff_t block_;
-    std::vector<double> blocks_;
+    runtime::ScratchVector<double> blocks_;
 };
 
 class SubsequenceSearch {
@@ -92,7 +93,7 @@ class SubsequenceSearch {
         sweep_piece(0, m, values_, origins_);
         least_.update(values_, 0, m - 1);
         poller_.set_counting(false);  // the pieces to come are not foreseen
-        std::vector<Subsequence> found;
+        runtime::ScratchVector<Subsequence> found;
         while (static_cast<std::ptrdiff_t>(found.size()) < count) {
             const std::ptrdiff_t stop = least_.find(values_);
             const double distance = range_.restore(values_[stop], degree_);
@@ -102,7 +103,7 @@ class SubsequenceSearch {
             if (static_cast<std::ptrdiff_t>(found.size()) < count) remove(start, stop);
         }
         poller_.set_counting(true);
-        return found;
+        return {found.begin(), found.end()};
     }
 
    private:

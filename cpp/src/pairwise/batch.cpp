@@ -4,12 +4,13 @@
 #include <limits>
 #include <utility>
 
+#include "runtime/scratch.hpp"
 #include "runtime/workers.hpp"
 
 namespace curvewise::pairwise {
 namespace {
 
-using CheckedCurves = std::vector<CheckedCurve>;
+using CheckedCurves = runtime::ScratchVector<CheckedCurve>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -24,9 +25,9 @@ struct Block {
 };
 
 // With two curves a thread at least, so that all have pairs to compute.
-std::vector<Block> blocks_of(const CheckedCurves& list, std::ptrdiff_t workers) {
+runtime::ScratchVector<Block> blocks_of(const CheckedCurves& list, std::ptrdiff_t workers) {
     const auto fewest = 2 * static_cast<std::size_t>(workers);
-    std::vector<Block> blocks{{0, 0}};
+    runtime::ScratchVector<Block> blocks{{0, 0}};
     std::ptrdiff_t numbers = 0;
     for (const CheckedCurve& checked : list) {
         Block& last = blocks.back();
@@ -70,7 +71,7 @@ class LoadedBlock {
 
     const CheckedCurves* curves_;
     CheckedCurves own_;
-    std::vector<curves::CurveInDoubles> points_;
+    runtime::ScratchVector<curves::CurveInDoubles> points_;
 };
 
 // The curves of a list, found finite; their shapes have been checked.
@@ -115,7 +116,8 @@ void check_sizes(const BatchMeasure& measure, const CheckedCurves& P, const Chec
 }
 
 void check_columns(const BatchMeasure& measure, const BatchMeasure::Rows& rows,
-                   const CheckedCurves& Q, const std::vector<Block>& blocks, Poller& poller) {
+                   const CheckedCurves& Q, const runtime::ScratchVector<Block>& blocks,
+                   Poller& poller) {
     for (const Block& block : blocks) {
         const LoadedBlock q(Q, block, poller);
         measure.pairs(rows, q.curves(), poller);
@@ -124,8 +126,8 @@ void check_columns(const BatchMeasure& measure, const BatchMeasure::Rows& rows,
 
 // Prepares every curve, block by block, and throws the errors of the preparation.
 void check_prepared(const BatchMeasure& measure, const CheckedCurves& P,
-                    const std::vector<Block>& rows_of, const CheckedCurves& Q,
-                    const std::vector<Block>& columns_of, Poller& poller) {
+                    const runtime::ScratchVector<Block>& rows_of, const CheckedCurves& Q,
+                    const runtime::ScratchVector<Block>& columns_of, Poller& poller) {
     for (const Block& block : rows_of) {
         const LoadedBlock p(P, block, poller);
         const auto rows = measure.prepare_rows(p.curves(), poller);
@@ -148,8 +150,8 @@ struct RowBlock {
 // The pairs of prepared rows with all columns, block by block. In a triangle with those from the
 // rows' own on.
 void compute_rows(const BatchMeasure& measure, const RowBlock& row, const CheckedCurves& Q,
-                  const std::vector<Block>& columns_of, PairSet set, const BatchOutput& output,
-                  Poller& poller) {
+                  const runtime::ScratchVector<Block>& columns_of, PairSet set,
+                  const BatchOutput& output, Poller& poller) {
     for (const Block& column : columns_of) {
         if (set == PairSet::triangle && column.first < row.first) continue;
         const bool is_diagonal = set == PairSet::triangle && column.first == row.first;
@@ -172,8 +174,8 @@ void compute_rows(const BatchMeasure& measure, const RowBlock& row, const Checke
 void compute_all(const BatchMeasure& measure, const CheckedCurves& P, const CheckedCurves& Q,
                  PairSet set, const BatchOutput& output, Poller& poller) {
     check_sizes(measure, P, Q);
-    const std::vector<Block> rows_of = blocks_of(P, workers_of(output));
-    const std::vector<Block> columns_of = blocks_of(Q, workers_of(output));
+    const runtime::ScratchVector<Block> rows_of = blocks_of(P, workers_of(output));
+    const runtime::ScratchVector<Block> columns_of = blocks_of(Q, workers_of(output));
     // A single pair of blocks is prepared once, and checked then.
     const bool are_many = rows_of.size() > 1 || columns_of.size() > 1;
     if (are_many) check_prepared(measure, P, rows_of, Q, columns_of, poller);
@@ -278,7 +280,7 @@ void PreparedCurve::values(const CurveList& Qs, const BatchOutput& output) const
         PairTiles::total({P_.size()}, sizes_of(Qs), PairSet::rectangle, measure_->steps()));
     const CheckedCurves columns = checked(*measure_, Qs, poller);
     for (const std::ptrdiff_t m : distinct(columns)) measure_->check_sizes(P_.size(), m);
-    const std::vector<Block> columns_of = blocks_of(columns, workers_of(output));
+    const runtime::ScratchVector<Block> columns_of = blocks_of(columns, workers_of(output));
     if (columns_of.size() > 1) check_columns(*measure_, *rows_, columns, columns_of, poller);
     compute_rows(*measure_, {*rows_, {P_.size()}, 0, true}, columns, columns_of, PairSet::rectangle,
                  output, poller);

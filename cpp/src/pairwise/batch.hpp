@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "curves/checks.hpp"
 #include "curves/owned_curve.hpp"
@@ -13,16 +12,17 @@
 #include "pairwise/pair_run.hpp"
 #include "pairwise/targets.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::pairwise {
 
 using curves::CurveList;
 
 // The hooks are what a measure class offers (measure.hpp); BatchOf implements them.
-class BatchMeasure {
+class BatchMeasure : public runtime::InScratch {
    public:
     // All curves that take P's place, prepared.
-    class Rows {
+    class Rows : public runtime::InScratch {
        public:
         Rows() = default;
         Rows(const Rows&) = delete;
@@ -47,11 +47,11 @@ class BatchMeasure {
     virtual bool may_be_negative() const noexcept = 0;
     virtual bool is_zero_to_itself(const curves::CheckedCurve& checked) const = 0;
     virtual PairTiles::Steps steps() const noexcept = 0;
-    virtual std::unique_ptr<const Rows> prepare_rows(const std::vector<CheckedCurve>& P,
+    virtual std::unique_ptr<const Rows> prepare_rows(const runtime::ScratchVector<CheckedCurve>& P,
                                                      Poller& poller) const = 0;
     // The pairs of the rows, which must outlive them, with the curves that take Q's place.
     virtual std::unique_ptr<const PairValues> pairs(const Rows& rows,
-                                                    const std::vector<CheckedCurve>& Q,
+                                                    const runtime::ScratchVector<CheckedCurve>& Q,
                                                     Poller& poller) const = 0;
     // Throws where a row serves no Q.
     virtual void check_rows(const Rows& rows, Poller& poller) const = 0;

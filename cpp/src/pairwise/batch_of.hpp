@@ -6,11 +6,11 @@
 #include <memory>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "pairwise/batch.hpp"
 #include "pairwise/measure.hpp"
 #include "pairwise/targets_of.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::pairwise {
 
@@ -67,7 +67,7 @@ class BatchOf final : public BatchMeasure {
 
     PairTiles::Steps steps() const noexcept override { return M::steps; }
 
-    std::unique_ptr<const Rows> prepare_rows(const std::vector<CheckedCurve>& P,
+    std::unique_ptr<const Rows> prepare_rows(const runtime::ScratchVector<CheckedCurve>& P,
                                              Poller& poller) const override {
         return std::make_unique<PreparedRows>(P, poller);
     }
@@ -80,7 +80,8 @@ class BatchOf final : public BatchMeasure {
         return std::make_unique<TargetsOf<M>>(measure_);
     }
 
-    std::unique_ptr<const PairValues> pairs(const Rows& rows, const std::vector<CheckedCurve>& Q,
+    std::unique_ptr<const PairValues> pairs(const Rows& rows,
+                                            const runtime::ScratchVector<CheckedCurve>& Q,
                                             Poller& poller) const override {
         return std::make_unique<Pairs>(measure_, sides(rows), Q, poller);
     }
@@ -91,8 +92,9 @@ class BatchOf final : public BatchMeasure {
     using Memory = typename M::Memory;
 
     template <class Side>
-    static std::vector<Side> prepare_all(const std::vector<CheckedCurve>& curves, Poller& poller) {
-        std::vector<Side> result;
+    static runtime::ScratchVector<Side> prepare_all(
+        const runtime::ScratchVector<CheckedCurve>& curves, Poller& poller) {
+        runtime::ScratchVector<Side> result;
         result.reserve(curves.size());
         for (const CheckedCurve& curve : curves) {
             poller.poll_in_loop(result.size());
@@ -102,19 +104,19 @@ class BatchOf final : public BatchMeasure {
     }
 
     struct PreparedRows final : Rows {
-        PreparedRows(const std::vector<CheckedCurve>& P, Poller& poller)
+        PreparedRows(const runtime::ScratchVector<CheckedCurve>& P, Poller& poller)
             : sides(prepare_all<PreparedP>(P, poller)) {}
-        std::vector<PreparedP> sides;
+        runtime::ScratchVector<PreparedP> sides;
     };
 
-    static const std::vector<PreparedP>& sides(const Rows& rows) noexcept {
+    static const runtime::ScratchVector<PreparedP>& sides(const Rows& rows) noexcept {
         return static_cast<const PreparedRows&>(rows).sides;
     }
 
     class Pairs final : public PairValues {
        public:
-        Pairs(const M& measure, const std::vector<PreparedP>& rows,
-              const std::vector<CheckedCurve>& Q, Poller& poller)
+        Pairs(const M& measure, const runtime::ScratchVector<PreparedP>& rows,
+              const runtime::ScratchVector<CheckedCurve>& Q, Poller& poller)
             : measure_(measure), rows_(rows), columns_(prepare_all<PreparedQ>(Q, poller)) {}
 
         bool is_swept() const noexcept override { return M::is_swept; }
@@ -159,12 +161,12 @@ class BatchOf final : public BatchMeasure {
         struct OwnMemory final : ThreadMemory {
             Memory content;
             Beside beside;
-            std::vector<const PreparedQ*> gathered;
+            runtime::ScratchVector<const PreparedQ*> gathered;
         };
 
         const M& measure_;
-        const std::vector<PreparedP>& rows_;
-        std::vector<PreparedQ> columns_;
+        const runtime::ScratchVector<PreparedP>& rows_;
+        runtime::ScratchVector<PreparedQ> columns_;
     };
 
     M measure_;

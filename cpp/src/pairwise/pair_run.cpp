@@ -7,8 +7,8 @@
 #include <limits>
 #include <mutex>
 #include <utility>
-#include <vector>
 
+#include "runtime/scratch.hpp"
 #include "runtime/workers.hpp"
 
 namespace curvewise::pairwise {
@@ -60,7 +60,7 @@ class PairRun {
     }
 
     void run_giants(Poller& poller) {
-        std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> giants;
+        runtime::ScratchVector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> giants;
         giant_ = giant_cells_per_worker * workers_;
         const std::size_t most = few * static_cast<std::size_t>(workers_);
         for (const Tile& tile : tiles_.tiles()) {
@@ -82,8 +82,8 @@ class PairRun {
         try {
             const std::unique_ptr<ThreadMemory> memory = pairs_.make_memory();
             const PairCall call{cutoff_, 1, poller, *memory};
-            const std::vector<Tile>& tiles = tiles_.tiles();
-            std::vector<double> values;
+            const runtime::ScratchVector<Tile>& tiles = tiles_.tiles();
+            runtime::ScratchVector<double> values;
             for (std::size_t t = next_++; t < tiles.size() && !has_failed_; t = next_++) {
                 if (are_some_beside_) {
                     take_columns_beside(tiles[t], call, values);
@@ -110,7 +110,8 @@ class PairRun {
     }
 
     // `values`: the memory of the thread.
-    void take_columns_beside(Tile tile, const PairCall& call, std::vector<double>& values) const {
+    void take_columns_beside(Tile tile, const PairCall& call,
+                             runtime::ScratchVector<double>& values) const {
         const std::ptrdiff_t end = tile.column_end;
         for (; tile.column < end; tile.column = tile.column_end) {
             const std::ptrdiff_t count =

@@ -9,6 +9,7 @@
 #include "curvewise/pairwise.hpp"
 #include "pairwise/pair_tiles.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::pairwise {
 
@@ -50,7 +51,7 @@ class PairDestination {
 };
 
 // What one thread keeps from one pair to the next.
-class ThreadMemory {
+class ThreadMemory : public runtime::InScratch {
    public:
     ThreadMemory() = default;
     ThreadMemory(const ThreadMemory&) = delete;
@@ -69,7 +70,7 @@ struct PairCall {
 };
 
 // The pairs of prepared rows and columns, for any measure.
-class PairValues {
+class PairValues : public runtime::InScratch {
    public:
     PairValues() = default;
     PairValues(const PairValues&) = delete;

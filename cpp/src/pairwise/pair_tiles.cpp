@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "runtime/scratch.hpp"
+
 namespace curvewise::pairwise {
 namespace {
 
@@ -13,11 +15,13 @@ constexpr double tiles_per_worker = 512.0;
 constexpr double max_edge = 32.0;
 constexpr double max_tiles = 2e5;
 
-std::vector<std::ptrdiff_t> largest_first(const Sizes& sizes) {
-    std::vector<std::ptrdiff_t> order(sizes.size());
+runtime::ScratchVector<std::ptrdiff_t> largest_first(const Sizes& sizes) {
+    runtime::ScratchVector<std::ptrdiff_t> order(sizes.size());
     std::iota(order.begin(), order.end(), std::ptrdiff_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::ptrdiff_t a, std::ptrdiff_t b) {
-        return sizes[static_cast<std::size_t>(a)] > sizes[static_cast<std::size_t>(b)];
+    std::sort(order.begin(), order.end(), [&](std::ptrdiff_t a, std::ptrdiff_t b) {
+        const std::ptrdiff_t n = sizes[static_cast<std::size_t>(a)];
+        const std::ptrdiff_t m = sizes[static_cast<std::size_t>(b)];
+        return n != m ? n > m : a < b;
     });
     return order;
 }
@@ -65,7 +69,7 @@ PairTiles::PairTiles(const Sizes& rows, const Sizes& columns, PairSet set, Steps
     const double share = set == PairSet::triangle ? 0.5 : 1.0;
     const std::ptrdiff_t edge = tile_edge(
         share * static_cast<double>(height) * static_cast<double>(width), workers, beside);
-    const auto points = [](const Sizes& sizes, const std::vector<std::ptrdiff_t>& order,
+    const auto points = [](const Sizes& sizes, const runtime::ScratchVector<std::ptrdiff_t>& order,
                            std::ptrdiff_t position) {
         return sizes[static_cast<std::size_t>(order[static_cast<std::size_t>(position)])];
     };
@@ -77,8 +81,10 @@ PairTiles::PairTiles(const Sizes& rows, const Sizes& columns, PairSet set, Steps
                  steps(points(rows, rows_, row), 1, points(columns, columns_, column))});
         }
     }
-    std::stable_sort(tiles_.begin(), tiles_.end(),
-                     [](const Tile& a, const Tile& b) { return a.largest > b.largest; });
+    std::sort(tiles_.begin(), tiles_.end(), [](const Tile& a, const Tile& b) {
+        if (a.largest != b.largest) return a.largest > b.largest;
+        return a.row != b.row ? a.row < b.row : a.column < b.column;
+    });
 }
 
 }  // namespace curvewise::pairwise

@@ -6,11 +6,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "runtime/scratch.hpp"
 
 namespace curvewise::pairwise {
 
-using Sizes = std::vector<std::ptrdiff_t>;  // the number of points of every curve of a list
+using Sizes =
+    runtime::ScratchVector<std::ptrdiff_t>;  // the number of points of every curve of a list
 
 enum class PairSet {
     rectangle,  // every row with every column
@@ -40,7 +42,7 @@ class PairTiles {
               std::ptrdiff_t workers, std::ptrdiff_t beside);
 
     PairSet set() const noexcept { return set_; }
-    const std::vector<Tile>& tiles() const noexcept { return tiles_; }
+    const runtime::ScratchVector<Tile>& tiles() const noexcept { return tiles_; }
     // Calls visit(i, j), indices of the lists as given, for every pair of the tile. In a triangle
     // i < j. Ends at once where `visit` returns false.
     template <class Visit>
@@ -67,9 +69,9 @@ class PairTiles {
 
    private:
     PairSet set_;
-    std::vector<std::ptrdiff_t> rows_;  // indices, the largest curve first
-    std::vector<std::ptrdiff_t> columns_;
-    std::vector<Tile> tiles_;
+    runtime::ScratchVector<std::ptrdiff_t> rows_;  // indices, the largest curve first
+    runtime::ScratchVector<std::ptrdiff_t> columns_;
+    runtime::ScratchVector<Tile> tiles_;
 };
 
 }  // namespace curvewise::pairwise

@@ -87,7 +87,8 @@ class Prepared::State : public pairwise::PreparedCurve {
 };
 
 Prepared::Prepared(const CurveView& P, const Measure& measure, Control* control)
-    : state_(std::make_shared<const State>(batch_of(measure), P, control)) {}
+    : state_(std::allocate_shared<const State>(runtime::ScratchAllocator<State>(),
+                                               batch_of(measure), P, control)) {}
 
 double Prepared::operator()(const CurveView& Q, Control* control) const {
     return state_->value(Q, control);

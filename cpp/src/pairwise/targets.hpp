@@ -18,7 +18,7 @@ namespace curvewise::pairwise {
 using curves::CheckedCurve;
 
 // One P, prepared, for one thread.
-class TargetQuery {
+class TargetQuery : public runtime::InScratch {
    public:
     TargetQuery() = default;
     TargetQuery(const TargetQuery&) = delete;

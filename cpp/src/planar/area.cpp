@@ -19,6 +19,7 @@
 #include "planar/matched_curves.hpp"
 #include "planar/quad.hpp"
 #include "planar/refinement.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise {
 namespace {
@@ -37,7 +38,7 @@ Quad quad_at(const Curves& curves, std::size_t i) noexcept {
 
 // Writes the gradient by a curve before its refinement, given the gradient by the vertices after
 // it. A cut at a + h (b - a) passes 1 - h of its gradient to a and h to b.
-void write_unrefined(const Polyline& by_vertex, const std::vector<planar::Cut>& cuts,
+void write_unrefined(const Polyline& by_vertex, const runtime::ScratchVector<planar::Cut>& cuts,
                      const RangeScale& range, int degree, double* gradient) {
     if (gradient == nullptr) return;
     std::size_t vertex = 0;
@@ -61,12 +62,13 @@ void write_unrefined(const Polyline& by_vertex, const std::vector<planar::Cut>& 
 // Returns the gradient by the points in `range` of one of the matched curves, given the gradient by
 // its vertices in MatchedCurves. A place between two vertices of the curve lies at a fixed share of
 // its length. Adds the derivatives by the scaling of lengths to `by_slope`.
-std::vector<Point> unmatched(const Polyline& by_vertex, const planar::PlacesOnCurve& on_curve,
-                             const std::array<double, 2>& slopes, const Polyline& points,
-                             const RangeScale& range, std::array<double, 2>& by_slope,
-                             runtime::Poller& poller) {
-    std::vector<Point> gradient(points.size(), Point{0.0, 0.0});
-    const std::vector<double> arc_lengths = curves::arc_lengths(on_curve.scaled, poller);
+runtime::ScratchVector<Point> unmatched(const Polyline& by_vertex,
+                                        const planar::PlacesOnCurve& on_curve,
+                                        const std::array<double, 2>& slopes, const Polyline& points,
+                                        const RangeScale& range, std::array<double, 2>& by_slope,
+                                        runtime::Poller& poller) {
+    runtime::ScratchVector<Point> gradient(points.size(), Point{0.0, 0.0});
+    const runtime::ScratchVector<double> arc_lengths = curves::arc_lengths(on_curve.scaled, poller);
     curves::ArcGradient by_arc(arc_lengths);
     for (std::size_t i = 0; i < by_vertex.size(); ++i) {
         const auto& [is_vertex, k, h, share] = on_curve.places[i];
@@ -96,7 +98,7 @@ std::vector<Point> unmatched(const Polyline& by_vertex, const planar::PlacesOnCu
 
 // Adds the derivatives by the scaling to the points that span the box: 1 over its extent.
 void add_box_gradient(const Polyline& points, double slope, double by_slope,
-                      double Point::*coordinate, std::vector<Point>& gradient) {
+                      double Point::*coordinate, runtime::ScratchVector<Point>& gradient) {
     const auto [low, high] = std::minmax_element(
         points.begin(), points.end(),
         [&](const Point& a, const Point& b) { return a.*coordinate < b.*coordinate; });
@@ -105,7 +107,8 @@ void add_box_gradient(const Polyline& points, double slope, double by_slope,
     gradient[static_cast<std::size_t>(low - points.begin())].*coordinate -= by_extent;
 }
 
-void write(const std::vector<Point>& gradient, const RangeScale& range, int degree, double* out) {
+void write(const runtime::ScratchVector<Point>& gradient, const RangeScale& range, int degree,
+           double* out) {
     if (out == nullptr) return;
     for (std::size_t k = 0; k < gradient.size(); ++k) {
         out[2 * k] = range.restore(gradient[k].x, degree);
@@ -215,7 +218,7 @@ class AreaMeasure : public pairwise::LinearMeasure {
                    options_.squared ? 2.0 * measured.area : 1.0);
         }
         const int degree = options_.squared ? 4 : 2;
-        const std::vector<planar::Cut> none;
+        const runtime::ScratchVector<planar::Cut> none;
         write_unrefined(by.A, none, range, degree - 1, by_a);
         write_unrefined(by.B, curves.cuts, range, degree - 1, by_b);
         return range.restore(sum, degree);

@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "curves/arc_gradient.hpp"
 #include "curves/arc_length.hpp"
@@ -17,6 +16,7 @@
 #include "curvewise/gradient.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise {
 namespace {
@@ -45,7 +45,8 @@ Pair largest_of_all(const CurveView& curve, Poller& poller) {
 }
 
 // The arc lengths after dividing each coordinate by the curve's own largest magnitude.
-std::vector<double> relative_arc_lengths(const CurveView& curve, Pair largest, Poller& poller) {
+runtime::ScratchVector<double> relative_arc_lengths(const CurveView& curve, Pair largest,
+                                                    Poller& poller) {
     for (double& value : largest) {
         if (value == 0.0) value = 1e-15;
     }
@@ -67,8 +68,8 @@ std::vector<double> relative_arc_lengths(const CurveView& curve, Pair largest, P
 // For each point of P, at arc length s, calls visit(i, segment, fraction) for the place on Q at the
 // same fraction of its length.
 template <class Visit>
-void for_each_place(const std::vector<double>& s, const std::vector<double>& t, Poller& poller,
-                    Visit visit) {
+void for_each_place(const runtime::ScratchVector<double>& s,
+                    const runtime::ScratchVector<double>& t, Poller& poller, Visit visit) {
     const double ratio = t.back() / s.back();
     curves::ArcPosition position(t);
     for (std::size_t i = 0; i < s.size(); ++i) {
@@ -251,8 +252,8 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
             curves::check_length(curve.curve, curve.name, CurveLengthOptions::measure, poller);
         }
         curves::CheckedCurve checked;
-        Pair largest;                     // |x| and |y|
-        std::vector<double> arc_lengths;  // after dividing by its largest |x| and |y|
+        Pair largest;                                // |x| and |y|
+        runtime::ScratchVector<double> arc_lengths;  // after dividing by its largest |x| and |y|
     };
     using PreparedP = Side;
     using PreparedQ = Side;
@@ -332,7 +333,7 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
     }
 
     // How fast a place moves along segment k as its share of the length grows.
-    static double places_per_share(const std::vector<double>& arc_lengths,
+    static double places_per_share(const runtime::ScratchVector<double>& arc_lengths,
                                    std::ptrdiff_t segment) noexcept {
         const auto k = static_cast<std::size_t>(segment);
         const double length = arc_lengths[k + 1] - arc_lengths[k];

@@ -13,6 +13,7 @@
 #include "planar/matched_side.hpp"
 #include "planar/matched_walk.hpp"
 #include "planar/quad.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::planar {
 namespace {
@@ -85,8 +86,8 @@ struct VertexPlaces {
             places.push_back(begin + (position - sample) * (end - begin));
         }
     }
-    std::vector<std::size_t> vertices;
-    std::vector<double> places;
+    runtime::ScratchVector<std::size_t> vertices;
+    runtime::ScratchVector<double> places;
 };
 
 // Spots, one place after the other.
@@ -106,13 +107,13 @@ class PlaceRecorder {
                               spot.position / length_});
         }
     }
-    std::vector<PlacesOnCurve::Place> take() { return std::move(found_); }
+    runtime::ScratchVector<PlacesOnCurve::Place> take() { return std::move(found_); }
 
    private:
     VertexPlaces of_vertices_;
     double length_;
     std::size_t next_ = 0;
-    std::vector<PlacesOnCurve::Place> found_;
+    runtime::ScratchVector<PlacesOnCurve::Place> found_;
 };
 
 Polyline as_polyline(const AlignedBuffer& points, std::ptrdiff_t count) {
@@ -126,10 +127,10 @@ Polyline as_polyline(const AlignedBuffer& points, std::ptrdiff_t count) {
 
 }  // namespace
 
-std::vector<double> matched_areas(const CurveView& P, const CurveView& Q,
-                                  const curves::RangeScale& range, Poller& poller) {
+runtime::ScratchVector<double> matched_areas(const CurveView& P, const CurveView& Q,
+                                             const curves::RangeScale& range, Poller& poller) {
     const Matching matching(P, Q, CommonBox(P, Q), range, poller);
-    std::vector<double> areas;
+    runtime::ScratchVector<double> areas;
     areas.reserve(matching.pieces);
     Quad quad{{0.0, 0.0},
               matching.p.spots().at(0.0, 0).point,

@@ -19,12 +19,12 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include "curves/polyline.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::planar {
 
@@ -36,7 +36,7 @@ using runtime::Poller;
 struct MatchedCurves {
     Polyline A;
     Polyline B;
-    std::vector<std::size_t> ends;
+    runtime::ScratchVector<std::size_t> ends;
 };
 
 // The places of the vertices of MatchedCurves::A on P, or of those of B on Q, for derivatives.
@@ -47,7 +47,7 @@ struct PlacesOnCurve {
         double fraction;
         double share;  // of the curve's length, before it
     };
-    std::vector<Place> places;
+    runtime::ScratchVector<Place> places;
     Polyline scaled;  // the curve, as its length is measured
 };
 
@@ -60,8 +60,8 @@ struct PlacesOnCurves {
 
 // The areas between the curves, with their signs, piece by piece: of the quadrilaterals between the
 // segments of MatchedCurves, added up in their order. Throws Stopped where the poller says so.
-std::vector<double> matched_areas(const CurveView& P, const CurveView& Q,
-                                  const curves::RangeScale& range, Poller& poller);
+runtime::ScratchVector<double> matched_areas(const CurveView& P, const CurveView& Q,
+                                             const curves::RangeScale& range, Poller& poller);
 
 // P and Q with a vertex at every vertex of the other, and at every end of a piece. Coordinates come
 // out in `range`. Throws Stopped where the poller says so. `on_curves`, if given, is filled in.

@@ -16,6 +16,7 @@
 #include <limits>
 
 #include "curvewise/pcm.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::planar {
 namespace {
@@ -41,14 +42,14 @@ class AreaAtOffset {
           longer_(longer),
           poller_(poller),
           weights_(shorter.points().size(), 0.0) {
-        const std::vector<double>& s = shorter.arc_lengths();
+        const runtime::ScratchVector<double>& s = shorter.arc_lengths();
         for (std::size_t i = 0; i + 1 < s.size(); ++i) {
             poller_.poll_in_loop(i);
             const double half = 0.5 * (s[i + 1] - s[i]);
             weights_[i] += half;
             weights_[i + 1] += half;
         }
-        const std::vector<double>& t = longer.arc_lengths();
+        const runtime::ScratchVector<double>& t = longer.arc_lengths();
         segments_.reserve(t.size() + 1);
         for (std::size_t k = 0; k + 1 < t.size(); ++k) {
             poller_.poll_in_loop(k);
@@ -157,7 +158,7 @@ class AreaAtOffset {
 
     void fill_signposts() {
         constexpr std::size_t per_segment = 4;
-        const std::vector<double>& t = longer_.arc_lengths();
+        const runtime::ScratchVector<double>& t = longer_.arc_lengths();
         const std::size_t count = per_segment * t.size();
         signposts_per_length_ = static_cast<double>(count) / longer_.length();
         signposts_.reserve(count + 2);  // rounding may lead one past the last
@@ -202,7 +203,7 @@ class AreaAtOffset {
     // each corner, d_i lies above the line that leaves the corner with d_i's derivative there.
     double deficit_after(std::size_t i, const Tangent& tangent, const ArcPosition& position,
                          double end) {
-        const std::vector<double>& t = longer_.arc_lengths();
+        const runtime::ScratchVector<double>& t = longer_.arc_lengths();
         double worst = 0.0;
         for (std::size_t k = position.segment() + 1; k + 1 < t.size() && t[k] < end; ++k) {
             poller_.poll_in_loop(++corners_);
@@ -217,7 +218,7 @@ class AreaAtOffset {
 
     double deficit_before(std::size_t i, const Tangent& tangent, const ArcPosition& position,
                           double begin) {
-        const std::vector<double>& t = longer_.arc_lengths();
+        const runtime::ScratchVector<double>& t = longer_.arc_lengths();
         double worst = 0.0;
         for (std::size_t k = position.segment(); k > 0 && t[k] > begin; --k) {
             poller_.poll_in_loop(++corners_);
@@ -233,9 +234,9 @@ class AreaAtOffset {
     const ArcCurve& shorter_;
     const ArcCurve& longer_;
     Poller& poller_;
-    std::vector<double> weights_;
-    std::vector<Segment> segments_;
-    std::vector<std::size_t> signposts_;
+    runtime::ScratchVector<double> weights_;
+    runtime::ScratchVector<Segment> segments_;
+    runtime::ScratchVector<std::size_t> signposts_;
     double signposts_per_length_ = 0.0;
     std::size_t corners_ = 0;  // tested for the present lower bound
 };
@@ -263,7 +264,7 @@ class GridSearch {
 
     // `doubt`: the largest possible rounding error of an area.
     Offset best(double doubt) {
-        std::vector<Stretch> open = first_stretches();
+        runtime::ScratchVector<Stretch> open = first_stretches();
         while (!open.empty()) {
             const double most = best_.area + doubt * (1.0 + best_.area);
             const auto is_done = [&](const Stretch& stretch) { return !may_hold(stretch, most); };
@@ -292,13 +293,13 @@ class GridSearch {
         double area_at_last;
     };
 
-    std::vector<Stretch> first_stretches() {
+    runtime::ScratchVector<Stretch> first_stretches() {
         constexpr std::ptrdiff_t first_ones = 16;
         const std::ptrdiff_t stride = std::max<std::ptrdiff_t>(1, count_ / (first_ones - 1));
         for (std::ptrdiff_t i = 0; i < count_; i += stride) wanted_.push_back(i);
         if (wanted_.back() != count_ - 1) wanted_.push_back(count_ - 1);
         evaluate();
-        std::vector<Stretch> stretches;
+        runtime::ScratchVector<Stretch> stretches;
         for (std::size_t k = 1; k < wanted_.size(); ++k) {
             stretches.push_back({wanted_[k - 1], wanted_[k], areas_[k - 1], areas_[k]});
         }
@@ -341,8 +342,8 @@ class GridSearch {
     double S_;
     double slack_;
     std::ptrdiff_t count_;
-    std::vector<std::ptrdiff_t> wanted_;
-    std::vector<double> areas_;  // at those
+    runtime::ScratchVector<std::ptrdiff_t> wanted_;
+    runtime::ScratchVector<double> areas_;  // at those
     Offset best_{0.0, std::numeric_limits<double>::infinity()};
 };
 
@@ -383,7 +384,7 @@ Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poll
     const double S = shorter.length();
     const double range = slack(shorter, longer);
     Offset best = best_of_grid(f, shorter, longer, count);
-    std::vector<Interval> open;
+    runtime::ScratchVector<Interval> open;
     for (std::ptrdiff_t i = count - 1; i > 0; --i) {
         open.push_back({grid_offset(range, i - 1, count), grid_offset(range, i, count)});
     }

@@ -8,11 +8,13 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "curves/arc_length.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
 #include "planar/offset_search.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise {
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "curves/arc_length.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::planar {
 namespace {
@@ -44,17 +45,17 @@ struct Part {
 };
 
 // For a curve whose measured length is zero: its first part, again and again.
-std::vector<Cut> cuts_of_no_length(std::size_t count) {
-    std::vector<Cut> cuts;
+runtime::ScratchVector<Cut> cuts_of_no_length(std::size_t count) {
+    runtime::ScratchVector<Cut> cuts;
     double start = 1.0;
     for (std::size_t c = 0; c < count; ++c) cuts.emplace_back(0, start /= 2.0);
     std::reverse(cuts.begin(), cuts.end());
     return cuts;
 }
 
-std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacing spacing,
-                                Poller& poller) {
-    std::vector<Part> parts;
+runtime::ScratchVector<Cut> bisection_cuts(const Polyline& curve, std::size_t count,
+                                           Spacing spacing, Poller& poller) {
+    runtime::ScratchVector<Part> parts;
     parts.reserve(curve.size() + count);
     for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
         poller.poll_in_loop(i);
@@ -73,9 +74,9 @@ std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacin
     if (parts.front().length == 0.0) return cuts_of_no_length(count);
     // Parts are bisected in the order of their lengths, so the halves are in this order, too. The
     // longest part of all is the next whole segment or the next half.
-    std::vector<Part> halves;
+    runtime::ScratchVector<Part> halves;
     halves.reserve(2 * count);
-    std::vector<Cut> cuts;
+    runtime::ScratchVector<Cut> cuts;
     cuts.reserve(count);
     auto whole = parts.begin();
     for (std::size_t half = 0; cuts.size() < count;) {
@@ -93,7 +94,7 @@ std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacin
     return cuts;
 }
 
-Polyline refined(const Polyline& curve, const std::vector<Cut>& cuts, Poller& poller) {
+Polyline refined(const Polyline& curve, const runtime::ScratchVector<Cut>& cuts, Poller& poller) {
     Polyline result;
     result.reserve(curve.size() + cuts.size());
     auto cut = cuts.begin();
@@ -110,7 +111,7 @@ Polyline refined(const Polyline& curve, const std::vector<Cut>& cuts, Poller& po
 // A curve walked by relative arc length.
 class RelativeWalk {
    public:
-    RelativeWalk(const Polyline& curve, std::vector<double> arc_lengths)
+    RelativeWalk(const Polyline& curve, runtime::ScratchVector<double> arc_lengths)
         : curve_(curve), u_(std::move(arc_lengths)) {
         const double length = u_.back();
         const bool measurable = length > 0.0 && std::isfinite(length);
@@ -130,12 +131,13 @@ class RelativeWalk {
 
    private:
     const Polyline& curve_;
-    std::vector<double> u_;
+    runtime::ScratchVector<double> u_;
     std::size_t vertex_ = 0;
 };
 
-FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q, std::vector<double> lengths_p,
-                                std::vector<double> lengths_q, Poller& poller) {
+FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q,
+                                runtime::ScratchVector<double> lengths_p,
+                                runtime::ScratchVector<double> lengths_q, Poller& poller) {
     RelativeWalk along_p(P, std::move(lengths_p));
     RelativeWalk along_q(Q, std::move(lengths_q));
     FacingCurves result{{P.front()}, {Q.front()}, {}};
@@ -162,7 +164,7 @@ FacingCurves face(const CurveView& P, const CurveView& Q, const curves::RangeSca
                                   box_scaled_arc_lengths(Q, box, poller), poller);
     }
     if (A.size() < B.size()) std::swap(A, B);
-    std::vector<Cut> cuts;
+    runtime::ScratchVector<Cut> cuts;
     if (A.size() > B.size()) {
         cuts = bisection_cuts(B, A.size() - B.size(), spacing, poller);
         B = refined(B, cuts, poller);

@@ -4,12 +4,12 @@
 
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "curves/polyline.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/area.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::planar {
 
@@ -21,7 +21,7 @@ using Cut = std::pair<std::size_t, double>;  // segment, fraction of it
 struct FacingCurves {
     Polyline A;
     Polyline B;
-    std::vector<Cut> cuts;  // of B, in its order; empty for `arc_length`
+    runtime::ScratchVector<Cut> cuts;  // of B, in its order; empty for `arc_length`
 };
 
 // For `distance` and `x`, A is the curve with more points (P if equal) and B the other, refined:

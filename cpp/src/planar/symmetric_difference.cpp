@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "curves/checks.hpp"
 #include "curves/polyline.hpp"
 #include "curves/range_scale.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise {
 namespace {
@@ -28,7 +28,7 @@ struct Edge {
     }
 };
 
-void add_edges(const Polyline& points, std::vector<Edge>& edges) {
+void add_edges(const Polyline& points, runtime::ScratchVector<Edge>& edges) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Point &a = points[i], &b = points[i + 1 == points.size() ? 0 : i + 1];
         if (a.x < b.x) edges.push_back({a, b});
@@ -40,7 +40,8 @@ void add_edges(const Polyline& points, std::vector<Edge>& edges) {
 // of both curves together gives the symmetric difference.
 class Slabs {
    public:
-    Slabs(std::vector<Edge> edges, Poller& poller) : edges_(std::move(edges)), poller_(poller) {
+    Slabs(runtime::ScratchVector<Edge> edges, Poller& poller)
+        : edges_(std::move(edges)), poller_(poller) {
         std::size_t comparisons = 0;
         std::sort(edges_.begin(), edges_.end(), [&](const Edge& e, const Edge& f) {
             poller.poll_in_loop(++comparisons);
@@ -117,9 +118,9 @@ class Slabs {
         return sum;
     }
 
-    std::vector<Edge> edges_, active_;
-    std::vector<double> ends_, crossings_, heights_;
-    std::vector<Crossed> sides_;
+    runtime::ScratchVector<Edge> edges_, active_;
+    runtime::ScratchVector<double> ends_, crossings_, heights_;
+    runtime::ScratchVector<Crossed> sides_;
     Poller& poller_;
 };
 
@@ -131,7 +132,7 @@ double symmetric_difference(const CurveView& P, const CurveView& Q, Control* con
     poller.begin(P.size() + Q.size());
     const curves::CheckedCurve p(P, "P", poller), q(Q, "Q", poller);
     const curves::RangeScale range(std::max(p.largest, q.largest));
-    std::vector<Edge> edges;
+    runtime::ScratchVector<Edge> edges;
     edges.reserve(static_cast<std::size_t>(P.size() + Q.size()));
     add_edges(curves::polyline(P, range, poller), edges);
     add_edges(curves::polyline(Q, range, poller), edges);

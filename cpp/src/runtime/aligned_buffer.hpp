@@ -1,12 +1,13 @@
 // Uninitialised storage for doubles, aligned to a cache line so that no SIMD load of a strip's
-// points crosses one. It can be reused: it grows on demand, and then forgets its content. It
-// allocates one line more than requested and takes the first aligned place in it. An allocator
-// returns small blocks of its own alignment much faster than blocks of another alignment.
+// points crosses one. It can be reused: it grows on demand, and then forgets its content. It takes
+// one line more than requested, and uses the first aligned place in it.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+
+#include "runtime/scratch.hpp"
 
 namespace curvewise::runtime {
 
@@ -18,7 +19,10 @@ class AlignedBuffer {
     // Room for `size` doubles, of any content.
     void reserve(std::ptrdiff_t size) {
         if (size <= size_) return;
-        storage_.reset(new double[static_cast<std::size_t>(size + line - 1)]);
+        const std::size_t bytes = static_cast<std::size_t>(size + line - 1) * sizeof(double);
+        storage_.reset();  // before more is taken
+        size_ = 0;
+        storage_ = Storage(static_cast<double*>(take_scratch(bytes)), GiveScratch(bytes));
         const auto place = reinterpret_cast<std::uintptr_t>(storage_.get()) / sizeof(double);
         data_ = storage_.get() + (rounded(static_cast<std::ptrdiff_t>(place % line)) -
                                   static_cast<std::ptrdiff_t>(place % line));
@@ -35,7 +39,8 @@ class AlignedBuffer {
 
    private:
     static constexpr std::ptrdiff_t line = 8;  // doubles
-    std::unique_ptr<double[]> storage_;
+    using Storage = std::unique_ptr<double[], GiveScratch>;
+    Storage storage_;
     double* data_ = nullptr;
     std::ptrdiff_t size_ = 0;
 };

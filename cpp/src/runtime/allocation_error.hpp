@@ -5,6 +5,9 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <type_traits>
+
+#include "runtime/scratch.hpp"
 
 namespace curvewise::runtime {
 
@@ -19,10 +22,14 @@ class AllocationError : public std::bad_alloc {
 
 // Uninitialised.
 template <class T>
-std::unique_ptr<T[]> allocate(std::ptrdiff_t size, const std::string& what_for) {
-    std::unique_ptr<T[]> data(new (std::nothrow) T[static_cast<std::size_t>(size)]);
-    if (!data) throw AllocationError(what_for, static_cast<double>(size) * sizeof(T));
-    return data;
+std::unique_ptr<T[], GiveScratch> allocate(std::ptrdiff_t size, const char* what_for) {
+    static_assert(std::is_trivial_v<T>);
+    const std::size_t bytes = static_cast<std::size_t>(size) * sizeof(T);
+    try {
+        return {static_cast<T*>(take_scratch(bytes)), GiveScratch(bytes)};
+    } catch (const std::bad_alloc&) {
+        throw AllocationError(what_for, static_cast<double>(bytes));
+    }
 }
 
 }  // namespace curvewise::runtime

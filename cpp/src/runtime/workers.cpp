@@ -33,7 +33,7 @@ std::ptrdiff_t resolve_workers(std::ptrdiff_t workers) {
 
 void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work) {
     std::vector<std::thread> threads;
-    threads.reserve(static_cast<std::size_t>(count));
+    if (count > 1) threads.reserve(static_cast<std::size_t>(count - 1));
     std::mutex mutex;
     std::condition_variable ended;
     std::size_t at_work = 0;

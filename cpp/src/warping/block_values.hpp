@@ -6,9 +6,9 @@
 
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "runtime/aligned_buffer.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/block_recursion.hpp"
 
 namespace curvewise::warping {
@@ -34,8 +34,8 @@ class FrontSide {
     std::ptrdiff_t points_of(std::ptrdiff_t run) const noexcept;
 
     std::ptrdiff_t points_;
-    std::vector<double> lowest_;         // of each run
-    std::vector<std::uint8_t> is_even_;  // all of a run are the lowest
+    runtime::ScratchVector<double> lowest_;         // of each run
+    runtime::ScratchVector<std::uint8_t> is_even_;  // all of a run are the lowest
     AlignedBuffer values_;
 };
 

@@ -12,9 +12,9 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/ground_distance.hpp"
 #include "warping/packed_curve.hpp"
 
@@ -73,7 +73,7 @@ class BoxTree {
     PointAccess points_;
     std::ptrdiff_t size_;
     std::ptrdiff_t dim_;
-    std::vector<std::ptrdiff_t> first_box_;  // of every level, and the number of all
+    runtime::ScratchVector<std::ptrdiff_t> first_box_;  // of every level, and the number of all
     AlignedBuffer bounds_;
 };
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
+#include "runtime/scratch.hpp"
 #include "warping/box_tree.hpp"
 #include "warping/ground_distance.hpp"
 #include "warping/narrow_path.hpp"
@@ -100,7 +100,8 @@ std::optional<Path> find_path_of_cheap_cells(const SweepProblem& problem, bool o
     if (!open_end && has_narrow_path(problem) && most < std::numeric_limits<double>::infinity()) {
         return find_narrow_path(problem, most);
     }
-    const std::vector<double> nothing_to_come(static_cast<std::size_t>(std::max(n, m) + 1), 0.0);
+    const runtime::ScratchVector<double> nothing_to_come(
+        static_cast<std::size_t>(std::max(n, m) + 1), 0.0);
     const double* const after = nothing_to_come.data() + 1;
     const CostToGo cost_to_go{most, 1.0, after, after, false};
     SweptColumns swept;

@@ -8,9 +8,9 @@
 #include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "curves/checks.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/closed_maximum.hpp"
 #include "warping/closed_walk.hpp"
 #include "warping/ground_distance.hpp"
@@ -43,7 +43,7 @@ PackedCurve around(const curves::CheckedCurve& checked, std::ptrdiff_t points, c
                    const RangeScale& range, Poller& poller) {
     const CurveView& curve = checked.curve;
     const std::ptrdiff_t count = turns.count * points + 1;
-    std::vector<double> ring;
+    runtime::ScratchVector<double> ring;
     ring.reserve(static_cast<std::size_t>(count * curve.dim()));
     for (std::ptrdiff_t i = 0; i < count; ++i) {
         poller.poll_in_loop(static_cast<std::size_t>(i));

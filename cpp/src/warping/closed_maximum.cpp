@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "curvewise/control.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::warping {
 
@@ -73,7 +74,7 @@ bool LeastMaximumSearch::admits(double bound) {
     for (std::ptrdiff_t i = 0; i <= n_; ++i) {
         if (!reach_row(i, bound)) return false;
     }
-    std::vector<std::ptrdiff_t> candidates;
+    runtime::ScratchVector<std::ptrdiff_t> candidates;
     const Range last = live_.back();
     for (std::ptrdiff_t j = std::max(last.first, m_); j <= std::min(last.last, 2 * m_ - 1); ++j) {
         const Starts& starts = row_[static_cast<std::size_t>(j)];

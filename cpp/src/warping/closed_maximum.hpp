@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/closed_walk.hpp"
 
 namespace curvewise::warping {
@@ -67,8 +67,8 @@ class LeastMaximumSearch {
     std::ptrdiff_t n_, m_;
     RowDistances& distances_;
     Poller& poller_;
-    std::vector<Starts> row_, above_;
-    std::vector<Range> live_;  // the columns that are reached, by row
+    runtime::ScratchVector<Starts> row_, above_;
+    runtime::ScratchVector<Range> live_;  // the columns that are reached, by row
     double used_ = 0.0, blocked_ = infinity;
     std::ptrdiff_t start_ = 0;
 };

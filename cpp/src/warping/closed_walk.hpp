@@ -7,10 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "curvewise/ground_distance.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/kernels/strip.hpp"
 #include "warping/packed_curve.hpp"
@@ -61,17 +61,18 @@ class RowDistances {
    private:
     const PackedCurve& P_;
     kernels::CostFunction fill_;
-    std::vector<double> cost_, point_;
+    runtime::ScratchVector<double> cost_, point_;
     kernels::Strip strip_{};
 };
 
 // The columns of a closed walk, by row.
 struct Walk {
-    std::vector<std::ptrdiff_t> first, last;
+    runtime::ScratchVector<std::ptrdiff_t> first, last;
 };
 
 inline Walk walk_between(std::size_t rows, std::ptrdiff_t first, std::ptrdiff_t last) {
-    return {std::vector<std::ptrdiff_t>(rows, first), std::vector<std::ptrdiff_t>(rows, last)};
+    return {runtime::ScratchVector<std::ptrdiff_t>(rows, first),
+            runtime::ScratchVector<std::ptrdiff_t>(rows, last)};
 }
 
 // The walk from one start whose value is least, between two others.
@@ -155,10 +156,10 @@ class WalkSearch {
     std::ptrdiff_t n_, m_;
     RowDistances& distances_;
     Poller& poller_;
-    std::vector<double> row_, above_;
+    runtime::ScratchVector<double> row_, above_;
     std::ptrdiff_t before_ = 0, behind_ = -1;
-    std::vector<std::uint8_t> codes_;
-    std::vector<Place> places_;
+    runtime::ScratchVector<std::uint8_t> codes_;
+    runtime::ScratchVector<Place> places_;
     Walk walk_;
 };
 

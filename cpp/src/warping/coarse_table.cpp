@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "runtime/scratch.hpp"
 #include "warping/block_recursion.hpp"
 
 namespace curvewise::warping {
@@ -14,8 +15,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // The last value of the table over `cost`, a row of `columns` after the other. `visit(value, cell)`
 // is called for each.
 template <class Visit>
-double sweep_coarsely(const std::vector<double>& cost, std::ptrdiff_t columns, Visit visit) {
-    std::vector<double> row(static_cast<std::size_t>(columns), infinity);
+double sweep_coarsely(const runtime::ScratchVector<double>& cost, std::ptrdiff_t columns,
+                      Visit visit) {
+    runtime::ScratchVector<double> row(static_cast<std::size_t>(columns), infinity);
     double left = infinity, diagonal = 0.0;  // leads into the first cell
     std::size_t j = 0;
     for (std::size_t cell = 0; cell < cost.size(); ++cell) {

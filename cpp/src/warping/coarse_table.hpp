@@ -11,8 +11,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "runtime/scratch.hpp"
 #include "warping/box_tree.hpp"
 #include "warping/kernels/strip.hpp"
 
@@ -45,8 +45,8 @@ class CoarseTable {
     Metric metric_;
     std::ptrdiff_t rows_;
     std::ptrdiff_t columns_;
-    std::vector<double> smallest_;
-    std::vector<double> largest_;
+    runtime::ScratchVector<double> smallest_;
+    runtime::ScratchVector<double> largest_;
     double lower_;
     double upper_;
 };

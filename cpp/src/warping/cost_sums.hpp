@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
+#include "runtime/scratch.hpp"
 #include "warping/live_columns.hpp"
 
 namespace curvewise::warping {
@@ -24,7 +24,7 @@ class CostSums {
     double* rows() noexcept { return after_row_.data(); }
     double* columns() noexcept { return after_column_.data(); }
     void add_up() noexcept {
-        for (std::vector<double>* terms : {&after_row_, &after_column_}) {
+        for (runtime::ScratchVector<double>* terms : {&after_row_, &after_column_}) {
             for (std::size_t k = terms->size() - 1; k > 0; --k) (*terms)[k - 1] += (*terms)[k];
         }
     }
@@ -80,8 +80,8 @@ class CostSums {
     }
 
    private:
-    std::vector<double> after_row_;
-    std::vector<double> after_column_;
+    runtime::ScratchVector<double> after_row_;
+    runtime::ScratchVector<double> after_column_;
     bool they_add_ = false;
 };
 

@@ -4,9 +4,9 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include "runtime/aligned_buffer.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/packed_side.hpp"
 #include "warping/warping_problem.hpp"
 
@@ -49,7 +49,7 @@ class CurvesBeside {
     AlignedBuffer points_;
     AlignedBuffer row_;
     // The band, row by row: the first columns, then the last, of so many columns.
-    std::vector<std::ptrdiff_t> ends_;
+    runtime::ScratchVector<std::ptrdiff_t> ends_;
     std::ptrdiff_t columns_of_ends_ = 0;
 };
 

@@ -1,9 +1,9 @@
 #include "warping/dtw_pruned.hpp"
 
 #include <algorithm>
-#include <vector>
 
 #include "curves/range_scale.hpp"
+#include "runtime/scratch.hpp"
 #include "runtime/stopwatch.hpp"
 #include "warping/cost_sums.hpp"
 #include "warping/least_distances.hpp"
@@ -90,12 +90,12 @@ class CoarseProblem {
     }
 
    private:
-    static std::vector<double> decimated(const PackedCurve& curve, PointOrder order,
-                                         std::ptrdiff_t decimation) {
+    static runtime::ScratchVector<double> decimated(const PackedCurve& curve, PointOrder order,
+                                                    std::ptrdiff_t decimation) {
         const PointAccess points(curve, order);
         const std::ptrdiff_t size =
             std::min(curve.size(), std::max<std::ptrdiff_t>(2, curve.size() / decimation));
-        std::vector<double> values;
+        runtime::ScratchVector<double> values;
         values.reserve(static_cast<std::size_t>(size * curve.dim()));
         for (std::ptrdiff_t k = 0; k < size; ++k) {
             const std::ptrdiff_t point = fine_index(k, size, curve.size());
@@ -104,7 +104,8 @@ class CoarseProblem {
         return values;
     }
 
-    static CurveView view(const std::vector<double>& values, const SweepProblem& fine) noexcept {
+    static CurveView view(const runtime::ScratchVector<double>& values,
+                          const SweepProblem& fine) noexcept {
         const std::ptrdiff_t dim = fine.curves.dim();
         return {values.data(), static_cast<std::ptrdiff_t>(values.size()) / dim, dim};
     }
@@ -127,8 +128,8 @@ class CoarseProblem {
         return {all, band_};
     }
 
-    std::vector<double> p_points_;
-    std::vector<double> q_points_;
+    runtime::ScratchVector<double> p_points_;
+    runtime::ScratchVector<double> q_points_;
     PackedCurve p_;
     PackedCurve q_;
     SweptColumns band_;
@@ -137,10 +138,12 @@ class CoarseProblem {
 
 // The columns within `reach` of a path of the coarse table, as far as `fine` holds them. Empty
 // where that leaves a row without columns.
-std::vector<ColumnRange> corridor_around(const IndexPairs& path, const SweepProblem& coarse,
-                                         const SweepProblem& fine, std::ptrdiff_t reach) {
+runtime::ScratchVector<ColumnRange> corridor_around(const IndexPairs& path,
+                                                    const SweepProblem& coarse,
+                                                    const SweepProblem& fine,
+                                                    std::ptrdiff_t reach) {
     const std::ptrdiff_t n = fine.curves.rows(), m = fine.curves.columns();
-    std::vector<ColumnRange> corridor(static_cast<std::size_t>(n), {m, -1});
+    runtime::ScratchVector<ColumnRange> corridor(static_cast<std::size_t>(n), {m, -1});
     const auto include = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
         ColumnRange& range = corridor[static_cast<std::size_t>(i)];
         range.first = std::min(range.first, j);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/scratch.hpp"
 #include "warping/block_recursion.hpp"
 #include "warping/box_tree.hpp"
 #include "warping/reach.hpp"
@@ -37,7 +38,7 @@ ColumnRange mirrored(const ColumnRange& range, std::ptrdiff_t size) noexcept {
 }
 
 // The ends of the reachable columns never fall from row to row. The ends of whole blocks may.
-void make_monotone(std::vector<ColumnRange>& rows) noexcept {
+void make_monotone(runtime::ScratchVector<ColumnRange>& rows) noexcept {
     for (std::size_t i = 1; i < rows.size(); ++i) {
         rows[i].first = std::max(rows[i].first, rows[i - 1].first);
     }
@@ -51,8 +52,10 @@ void make_monotone(std::vector<ColumnRange>& rows) noexcept {
 SweptColumns frechet_corridor(const SweepProblem& problem, double value) {
     const PackedPair& curves = problem.curves;
     const std::ptrdiff_t n = curves.rows(), m = curves.columns();
-    const std::vector<RunRange> from_start = reached_runs(problem, curves.p, curves.q, value).of_p;
-    const std::vector<RunRange> from_end = reached_runs(problem, curves.q, curves.p, value).of_q;
+    const runtime::ScratchVector<RunRange> from_start =
+        reached_runs(problem, curves.p, curves.q, value).of_p;
+    const runtime::ScratchVector<RunRange> from_end =
+        reached_runs(problem, curves.q, curves.p, value).of_q;
     SweptColumns corridor;
     corridor.rows.reserve(static_cast<std::size_t>(n));
     for (std::ptrdiff_t i = 0; i < n; ++i) {

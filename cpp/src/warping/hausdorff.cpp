@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <vector>
 
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/ground_distance.hpp"
 #include "warping/packed_side.hpp"
@@ -29,7 +29,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 class HausdorffMeasure : public pairwise::SweptMeasure {
    public:
     struct Memory {
-        std::vector<double> point, distances, nearest;
+        runtime::ScratchVector<double> point, distances, nearest;
     };
     using PreparedP = warping::PackedSide<PointOrder::forward>;
     using PreparedQ = PreparedP;

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
-#include <vector>
+
+#include "runtime/scratch.hpp"
 
 namespace curvewise::warping {
 namespace {
@@ -105,8 +106,8 @@ class LeafSearch {
 
     const BoxTree& from_;
     const BoxTree& to_;
-    std::vector<double> points_;  // of the leaf, coordinate by coordinate
-    std::vector<Found> found_;
+    runtime::ScratchVector<double> points_;  // of the leaf, coordinate by coordinate
+    runtime::ScratchVector<Found> found_;
     const double* own_ = nullptr;
     int descents_left_ = 0;
     std::ptrdiff_t nearest_ = 0;

@@ -5,10 +5,10 @@
 
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "curvewise/ground_distance.hpp"
 #include "runtime/aligned_buffer.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/live_columns.hpp"
 #include "warping/packed_curve.hpp"
 
@@ -26,8 +26,8 @@ class LineTable {
 
     std::ptrdiff_t rows_ = -1;
     std::ptrdiff_t columns_ = -1;
-    std::vector<double> first_step_;
-    std::vector<double> last_step_;
+    runtime::ScratchVector<double> first_step_;
+    runtime::ScratchVector<double> last_step_;
     runtime::AlignedBuffer row_;
     runtime::AlignedBuffer q_;
 };

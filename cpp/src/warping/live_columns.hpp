@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "runtime/scratch.hpp"
 #include "warping/band.hpp"
 
 namespace curvewise::warping {
@@ -39,7 +39,7 @@ struct CostToGo {
 // The columns that a narrowing sweep has covered.
 struct SweptColumns {
     // Per row, ends that never fall: every path of interest keeps to them.
-    std::vector<ColumnRange> rows;
+    runtime::ScratchVector<ColumnRange> rows;
     std::int64_t cells = 0;
 };
 

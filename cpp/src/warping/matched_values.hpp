@@ -11,9 +11,9 @@
 
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "runtime/aligned_buffer.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/band.hpp"
 #include "warping/kernels/boxes.hpp"
 
@@ -51,7 +51,7 @@ class BandedValues {
     // begins_[k] on. Beyond either end, the curve continues with its end value.
     std::ptrdiff_t first_ = 0;
     std::ptrdiff_t length_ = 1;
-    std::vector<std::ptrdiff_t> begins_;
+    runtime::ScratchVector<std::ptrdiff_t> begins_;
     bool is_every_run_ = true;  // begins_[k] is k
     runtime::AlignedBuffer continued_;
     runtime::AlignedBuffer all_low_;

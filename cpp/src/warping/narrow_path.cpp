@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
+#include "runtime/scratch.hpp"
 #include "warping/box_tree.hpp"
 #include "warping/kernels/strip.hpp"
 
@@ -90,8 +90,8 @@ class NarrowTable {
     std::ptrdiff_t stride_;
     AlignedBuffer memory_;  // the columns' points, and a row of the table
     kernels::NarrowRows rows_{};
-    std::vector<std::ptrdiff_t> strips_;  // where the code of diagonal 0 would be
-    std::vector<std::uint8_t> codes_;
+    runtime::ScratchVector<std::ptrdiff_t> strips_;  // where the code of diagonal 0 would be
+    runtime::ScratchVector<std::uint8_t> codes_;
 };
 
 // In the order of the table.

@@ -35,6 +35,7 @@
 
 #include "curves/checks.hpp"
 #include "runtime/aligned_buffer.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/box_tree.hpp"
 #include "warping/cost_sums.hpp"
 #include "warping/first_bounds.hpp"
@@ -62,8 +63,8 @@ class BandedBoxes {
     std::ptrdiff_t count_ = -1;
     std::ptrdiff_t size_ = -1;
     bool is_limited_ = false;
-    std::vector<std::ptrdiff_t> first_;
-    std::vector<std::ptrdiff_t> last_;
+    runtime::ScratchVector<std::ptrdiff_t> first_;
+    runtime::ScratchVector<std::ptrdiff_t> last_;
 };
 
 // The bounds of one P. For one thread.
@@ -149,7 +150,7 @@ class PairBounds {
     AlignedBuffer merged_;          // boxes of P, in one dimension
     AlignedBuffer merged_of_kept_;  // of Q
     std::ptrdiff_t merged_count_ = 0;
-    std::vector<double> run_terms_;
+    runtime::ScratchVector<double> run_terms_;
     BoxRoom boxes_;  // of Q
     CostSums sums_;
     LineTable line_table_;

@@ -4,13 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "warping/sweep_problem.hpp"
 
 namespace curvewise::warping {
 
-using IndexPairs = std::vector<std::array<std::int64_t, 2>>;
+using IndexPairs = runtime::ScratchVector<std::array<std::int64_t, 2>>;
 
 struct Path {
     double value;  // of the last cell

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runtime/scratch.hpp"
+
 namespace curvewise::warping {
 namespace {
 
@@ -26,7 +28,8 @@ void flood(Word* words, const RunRange& runs, bool from_the_start) noexcept {
 }
 
 // Notes for each of `runs` that it has reached `others`.
-void extend(std::vector<RunRange>& reached, const RunRange& runs, const RunRange& others) noexcept {
+void extend(runtime::ScratchVector<RunRange>& reached, const RunRange& runs,
+            const RunRange& others) noexcept {
     for (std::ptrdiff_t run = runs.first; run < runs.end; ++run) {
         RunRange& of_run = reached[static_cast<std::size_t>(run)];
         of_run.first = std::min(of_run.first, others.first);

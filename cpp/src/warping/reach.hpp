@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "runtime/scratch.hpp"
 #include "warping/block_recursion.hpp"
 
 namespace curvewise::warping {
@@ -20,8 +20,8 @@ struct PointArray {
 // For each run of either curve, runs of the other that hold all of its cells that have been
 // reached.
 struct ReachedRuns {
-    std::vector<RunRange> of_p;
-    std::vector<RunRange> of_q;
+    runtime::ScratchVector<RunRange> of_p;
+    runtime::ScratchVector<RunRange> of_q;
 };
 
 class ReachFront {
@@ -46,7 +46,7 @@ class ReachFront {
     }
 
    private:
-    using Words = std::vector<std::uint64_t>;
+    using Words = runtime::ScratchVector<std::uint64_t>;
 
     void note_reached(const RunRange& p, const RunRange& q) noexcept;
     static bool is_last_set(const Words& words, std::ptrdiff_t run) noexcept {

@@ -15,6 +15,7 @@
 #include "curvewise/recurrence.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/ground_distance.hpp"
 #include "warping/packed_side.hpp"
 #include "warping/recurrence_sweep.hpp"
@@ -25,6 +26,7 @@ namespace {
 
 using curves::RangeScale;
 using runtime::Poller;
+using warping::IndexPairs;
 using warping::PackedCurve;
 using warping::PointOrder;
 using warping::RecurrenceProblem;
@@ -48,8 +50,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 }
 
 // The points of a curve, preceded by a point whose coordinates are all 0.
-std::vector<double> led(const CurveView& curve) {
-    std::vector<double> points(static_cast<std::size_t>((curve.size() + 1) * curve.dim()), 0.0);
+runtime::ScratchVector<double> led(const CurveView& curve) {
+    runtime::ScratchVector<double> points(
+        static_cast<std::size_t>((curve.size() + 1) * curve.dim()), 0.0);
     double* next = points.data() + curve.dim();
     for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
         for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) *next++ = curve(i, c);
@@ -165,7 +168,8 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         }
         const auto pack = [&](const curves::CheckedCurve& checked, PointOrder order) {
             const CurveView& curve = checked.curve;
-            const std::vector<double> points = is_led ? led(curve) : std::vector<double>();
+            const runtime::ScratchVector<double> points =
+                is_led ? led(curve) : runtime::ScratchVector<double>();
             return PackedCurve::of(
                 is_led ? CurveView(points.data(), curve.size() + 1, curve.dim()) : curve,
                 checked.on_sphere, range, order, poller);
@@ -213,15 +217,16 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
             const RecurrenceSweep::End end =
                 RecurrenceSweep(problem, -1, call.poller, call.memory).end(infinity);
             found.distance = finished(restored(end.value, problem.range), n, m);
-            found.path = end.value < infinity
-                             ? RecurrenceSweep(problem, -1, call.poller, call.memory).path(end)
-                             : path_of_any_cost(problem, call);
+            const IndexPairs path =
+                end.value < infinity
+                    ? RecurrenceSweep(problem, -1, call.poller, call.memory).path(end)
+                    : path_of_any_cost(problem, call);
+            const bool is_led = recurrence_.border == Border::origin && !path.empty();
+            found.path.assign(path.begin() + is_led, path.end());
+            if (is_led) {  // without the point before the first
+                for (auto& [i, j] : found.path) --i, --j;
+            }
         });
-        if (recurrence_.border == Border::origin &&
-            !found.path.empty()) {  // without the point before the first
-            found.path.erase(found.path.begin());
-            for (auto& [i, j] : found.path) --i, --j;
-        }
         return found;
     }
 
@@ -232,7 +237,7 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         with_curves(P, Q, call.poller, [&](const RecurrenceProblem& problem) {
             const std::ptrdiff_t rows = problem.curves.rows(), width = problem.curves.columns();
             const std::ptrdiff_t led = rows - n;
-            std::vector<double> table(static_cast<std::size_t>(rows * width));
+            runtime::ScratchVector<double> table(static_cast<std::size_t>(rows * width));
             for_each_table(problem.curves, [&](std::ptrdiff_t coordinate) {
                 RecurrenceSweep(problem, coordinate, call.poller, call.memory)
                     .write_table(table.data());
@@ -248,8 +253,8 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
 
    private:
     // If every path is infinite, one of them; empty if the steps admit no path.
-    static std::vector<std::array<std::int64_t, 2>> path_of_any_cost(
-        const RecurrenceProblem& problem, const pairwise::Call<Memory>& call) {
+    static IndexPairs path_of_any_cost(const RecurrenceProblem& problem,
+                                       const pairwise::Call<Memory>& call) {
         const Recurrence recurrence = without_costs(problem.recurrence);
         const StepTable steps(recurrence, problem.range);
         const RecurrenceProblem reachable{recurrence, steps, problem.curves, problem.range,

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "runtime/scratch.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/ground_distance.hpp"
 #include "warping/window.hpp"
@@ -53,7 +54,7 @@ struct RecurrenceSweep::Codes {
 
     std::ptrdiff_t stride;
     std::ptrdiff_t per_strip;
-    std::vector<std::uint8_t> content;
+    runtime::ScratchVector<std::uint8_t> content;
 };
 
 RecurrenceSweep::RecurrenceSweep(const RecurrenceProblem& problem, std::ptrdiff_t coordinate,
@@ -159,7 +160,7 @@ void RecurrenceSweep::prepare_gaps(double gap, double* rows, double* columns) {
     if (recurrence_.gaps == Gaps::to_point) {
         const bool is_on_sphere = recurrence_.ground.metric == Metric::haversine;
         const std::ptrdiff_t lanes = std::max(n, m) + kernels::padding;
-        std::vector<double> point(
+        runtime::ScratchVector<double> point(
             static_cast<std::size_t>(is_on_sphere ? strip.dim * lanes : lanes), gap);
         strip.q_stride = is_on_sphere ? lanes : 0;
         for (std::ptrdiff_t c = 0; is_on_sphere && c < strip.dim; ++c) {
@@ -379,7 +380,7 @@ void RecurrenceSweep::run(kernels::RecurrenceStrip& strip, const Part& part) {
     }
 }
 
-std::vector<std::array<std::int64_t, 2>> RecurrenceSweep::path(const End& end) {
+IndexPairs RecurrenceSweep::path(const End& end) {
     found_.clear();
     is_counting_ = false;
     find(0, first_boundary(), {end.row, end.column});

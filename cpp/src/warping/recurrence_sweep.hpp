@@ -16,8 +16,10 @@
 #include "curves/range_scale.hpp"
 #include "curvewise/recurrence.hpp"
 #include "runtime/aligned_buffer.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/band.hpp"
 #include "warping/packed_curve.hpp"
+#include "warping/path.hpp"
 #include "warping/step_table.hpp"
 
 namespace curvewise::warping {
@@ -30,7 +32,7 @@ struct RecurrenceMemory {
     AlignedBuffer lanes;
     AlignedBuffer costs;          // of rows, columns and differences
     AlignedBuffer own_distances;  // of a strip
-    std::vector<std::ptrdiff_t> columns;
+    runtime::ScratchVector<std::ptrdiff_t> columns;
 };
 
 // The problem to sweep: the curves as the recurrence takes them, in units of a range.
@@ -59,7 +61,7 @@ class RecurrenceSweep {
     End end(double give_up);
     void write_table(double* out);
     // The cells of a path to there from where it begins.
-    std::vector<std::array<std::int64_t, 2>> path(const End& end);
+    IndexPairs path(const End& end);
 
    private:
     struct Codes;
@@ -73,7 +75,7 @@ class RecurrenceSweep {
         std::ptrdiff_t end;
         std::ptrdiff_t columns;
     };
-    using Rows = std::vector<double>;
+    using Rows = runtime::ScratchVector<double>;
 
     void prepare_costs(const RangeScale& range);
     void prepare_gaps(double gap, double* rows, double* columns);
@@ -107,7 +109,7 @@ class RecurrenceSweep {
     double* left_border_ = nullptr;  // of the row `reach` above the first, and so on
     double reentry_;                 // the least of it
     double* ends_ = nullptr;         // the cell of each row in the last column, if requested
-    std::vector<std::array<std::int64_t, 2>> found_;  // backwards
+    IndexPairs found_;               // backwards
 };
 
 }  // namespace curvewise::warping

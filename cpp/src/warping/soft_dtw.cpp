@@ -6,12 +6,12 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "curves/checks.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/gradient.hpp"
 #include "pairwise/evaluate.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/ground_distance.hpp"
 #include "warping/soft_sweep.hpp"
 #include "warping/warping_problem.hpp"
@@ -99,7 +99,7 @@ class SoftDtwMeasure : public pairwise::SweptMeasure {
 
        private:
         std::ptrdiff_t n_, dim_, stride_;
-        std::vector<double> entries_;
+        runtime::ScratchVector<double> entries_;
     };
 
     // Calls use(sweep, range), and returns -gamma times its result. If gamma is smaller than 2^-900

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "curvewise/control.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/dispatch.hpp"
 
 namespace curvewise::warping {
@@ -78,7 +79,7 @@ class SoftSweep::ShareTable {
     std::ptrdiff_t room_ = 0;
     std::ptrdiff_t first_diagonal_ = 0;
     AlignedBuffer storage_;
-    std::vector<ColumnRange> lanes_;
+    runtime::ScratchVector<ColumnRange> lanes_;
 };
 
 SoftSweep::SoftSweep(const PackedPair& curves, const Band& band, double scale, Poller& poller)
@@ -229,14 +230,15 @@ double SoftSweep::log_of_total() {
 double SoftSweep::log_of_total(double* by_p, double* by_q) {
     const std::ptrdiff_t height = gradient_height(curves_.rows());
     ShareTable shares(*this, height);
-    std::vector<ScaledRow> above{start()};
+    runtime::ScratchVector<ScaledRow> above{start()};
     ScaledRow below(curves_.columns());
     const bool counting = poller_.set_counting(false);
     for (std::ptrdiff_t row = 0; row + height < curves_.rows(); row += height) {
         forward(strip(row, height), above.back(), below, nullptr);
         above.push_back(below);
     }
-    FromBelow from_below{std::vector<double>(static_cast<std::size_t>(curves_.columns() + 1)), {}};
+    FromBelow from_below{
+        runtime::ScratchVector<double>(static_cast<std::size_t>(curves_.columns() + 1)), {}};
     from_below.diagonal = from_below.up;
     from_below.diagonal.back() = 1.0;  // the weight of the last cell
     double result = 0.0;

@@ -8,10 +8,10 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "runtime/aligned_buffer.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/band.hpp"
 #include "warping/kernels/strip.hpp"
 #include "warping/packed_curve.hpp"
@@ -23,8 +23,8 @@ struct ScaledRow {
     explicit ScaledRow(std::ptrdiff_t columns);
     void clear() noexcept;
 
-    std::vector<double> mantissas;
-    std::vector<double> exponents;
+    runtime::ScratchVector<double> mantissas;
+    runtime::ScratchVector<double> exponents;
 };
 
 class SoftSweep {
@@ -49,8 +49,8 @@ class SoftSweep {
     class ShareTable;
     // What the strip below adds to its neighbours above: column j at index j.
     struct FromBelow {
-        std::vector<double> up;
-        std::vector<double> diagonal;
+        runtime::ScratchVector<double> up;
+        runtime::ScratchVector<double> diagonal;
     };
 
     Strip strip(std::ptrdiff_t first_row, std::ptrdiff_t height) const noexcept;

@@ -2,10 +2,9 @@
 // the units of a range.
 #pragma once
 
-#include <vector>
-
 #include "curves/range_scale.hpp"
 #include "curvewise/recurrence.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/kernels/recurrence.hpp"
 
 namespace curvewise::warping {
@@ -23,8 +22,8 @@ struct StepTable {
 
     bool uses(kernels::Source source) const noexcept;
 
-    std::vector<kernels::LaneStep> steps;
-    std::vector<kernels::LaneTerm> terms;
+    runtime::ScratchVector<kernels::LaneStep> steps;
+    runtime::ScratchVector<kernels::LaneTerm> terms;
     int reach = 1;            // the most rows or columns of a step
     int value_diagonals = 2;  // those that a cell depends on, and its own
     int pair_diagonals = 1;

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "runtime/scratch.hpp"
 #include "warping/kernels/strip.hpp"
 #include "warping/strip_narrower.hpp"
 #include "warping/sweep_problem.hpp"
@@ -43,7 +43,7 @@ struct CodeLayout {
     CodeLayout(const SweepProblem& problem, const Region& region);
     std::ptrdiff_t height;
     std::ptrdiff_t size = 0;  // of all codes, in bytes
-    std::vector<StripCodes> strips;
+    runtime::ScratchVector<StripCodes> strips;
 };
 
 // Aligned to two cache lines, which processors fetch together: a kernel writes to its strip on

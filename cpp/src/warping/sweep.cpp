@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <vector>
 
+#include "runtime/scratch.hpp"
 #include "runtime/workers.hpp"
 #include "warping/strip_walk.hpp"
 
@@ -96,14 +98,14 @@ void sweep(const SweepProblem& problem, const Region& region, bool starts_here, 
            const Destination& destination) {
     const StripPlan plan(problem, region, worker_count(problem, region), destination);
     const bool is_narrowing = problem.columns.cost_to_go() != nullptr;
-    std::vector<StripEdge> edges;
+    runtime::ScratchVector<StripEdge> edges;
     if (is_narrowing) {
         edges.resize(static_cast<std::size_t>(plan.strips() + 1));
         edges[0].last = starts_here ? 0 : region.columns - 1;
         problem.columns.swept()->rows.resize(static_cast<std::size_t>(region.rows));
     }
     StripWalk first(plan, starts_here, boundary, problem.memory, edges.data());
-    std::vector<SweepMemory> memories(static_cast<std::size_t>(plan.workers() - 1));
+    runtime::ScratchVector<SweepMemory> memories(static_cast<std::size_t>(plan.workers() - 1));
     std::vector<StripWalk> others;
     others.reserve(memories.size());
     for (SweepMemory& memory : memories) {

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "runtime/aligned_buffer.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/kernels/strip.hpp"
 #include "warping/live_columns.hpp"
 #include "warping/packed_curve.hpp"
@@ -54,7 +54,7 @@ struct SweepMemory {
 
    private:
     std::array<std::ptrdiff_t, 64> few_columns_{};
-    std::vector<std::ptrdiff_t> many_columns_;
+    runtime::ScratchVector<std::ptrdiff_t> many_columns_;
 };
 
 struct SweepProblem {

@@ -11,6 +11,7 @@
 #include "curves/moved_curve.hpp"
 #include "curves/sphere.hpp"
 #include "curvewise/gradient.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/dtw_recurrence.hpp"
 #include "warping/ground_distance.hpp"
 
@@ -65,7 +66,7 @@ class PointPair {
 
    private:
     double order_;
-    std::vector<double> p_, q_;
+    runtime::ScratchVector<double> p_, q_;
     double largest_ = 0.0;
     std::ptrdiff_t place_of_largest_ = 0;
 };

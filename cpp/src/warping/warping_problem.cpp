@@ -146,7 +146,7 @@ WarpingInfo WarpingProblem::info() {
 Alignment WarpingProblem::alignment() const {
     std::optional<Path> path = pruned_path();
     if (!path) path = find_path(sweep_, open_end_);
-    return {restore(path->value), std::move(path->pairs)};
+    return {restore(path->value), {path->pairs.begin(), path->pairs.end()}};
 }
 
 void WarpingProblem::write_table(double* out) const {

@@ -35,7 +35,7 @@ ArcCurve arc_curve(const Curve& curve) {
 
 // The point at arc length u, searched for from the start.
 Point place(const ArcCurve& curve, double u) {
-    const std::vector<double>& t = curve.arc_lengths();
+    const auto& t = curve.arc_lengths();
     const auto after = std::upper_bound(t.begin(), t.end(), u);
     if (after == t.end()) return curve.points().back();
     const auto k = static_cast<std::size_t>(after - t.begin());
@@ -45,7 +45,7 @@ Point place(const ArcCurve& curve, double u) {
 
 // The sum of (d_i + d_{i+1}) / 2 (s_{i+1} - s_i).
 double area_at(const ArcCurve& shorter, const ArcCurve& longer, double offset) {
-    const std::vector<double>& s = shorter.arc_lengths();
+    const auto& s = shorter.arc_lengths();
     std::vector<double> d;
     for (std::size_t i = 0; i < s.size(); ++i) {
         d.push_back(norm(place(longer, s[i] + offset) - shorter.points()[i]));

@@ -16,6 +16,7 @@
 #include "curves.hpp"
 #include "curvewise/curvewise.h"
 #include "curvewise/curvewise.hpp"
+#include "runtime/scratch.hpp"
 #ifdef _WIN32
 #include <malloc.h>
 #endif
@@ -90,6 +91,7 @@ std::int64_t fail_each(const std::string& name, const std::function<double()>& c
     const double expected = call();
     std::int64_t thrown = 0, done_without = 0;
     for (std::int64_t k = 0;; k += 1 + k / 256 * (k / 256)) {
+        runtime::release_scratch();  // so that the call has to allocate
         const std::int64_t before = living;
         until_failure = k;
         bool is_bad_alloc = false;
@@ -106,6 +108,7 @@ std::int64_t fail_each(const std::string& name, const std::function<double()>& c
         const bool has_failed = until_failure.exchange(-1) < 0;
         CHECK_EQUAL(other, std::string());
         CHECK_EQUAL(value, expected);
+        runtime::release_scratch();
         if (other.empty()) CHECK_EQUAL(living.load(), before);
         if (!has_failed) {
             std::printf("%-28s %4d allocations: %4d thrown, %d done without\n", name.c_str(),

@@ -178,7 +178,8 @@ class Comparison {
     }
 
     void check_path(const SweepProblem& problem, bool open_end, std::ptrdiff_t max_codes) const {
-        const auto [value, path] = find_path(problem, open_end, max_codes);
+        const auto [value, pairs] = find_path(problem, open_end, max_codes);
+        const oracle::Path path(pairs.begin(), pairs.end());
         oracle::Rules rules = setup_.rules();
         rules.open_end = open_end;
         CHECK(oracle::is_path(path, P_, Q_, rules));
