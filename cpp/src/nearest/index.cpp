@@ -4,9 +4,10 @@
 // keeps them waiting: add() writes behind the curves that others see, remove() only marks curves,
 // and both then show another view to the calls that begin later.
 #include <algorithm>
+#include <cstdio>
+#include <functional>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "nearest/index_view.hpp"
 #include "nearest/query_run.hpp"
 #include "pairwise/batch.hpp"
+#include "runtime/scratch.hpp"
 #include "runtime/workers.hpp"
 
 namespace curvewise {
@@ -119,11 +121,14 @@ class Index::State {
         const IndexView view = this->view();
         check_count(count, view.seen.remaining, X == nullptr);
         begin(X == nullptr ? static_cast<std::size_t>(view.seen.remaining) : X->size());
-        ask(X, view, options, control,
-            [&](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
-                std::ptrdiff_t left_out) {
-                write(i, with_indices(search.nearest(query, all_steps, count, left_out)));
-            });
+        const auto answer = [&](NeighborSearch& search, TargetQuery& query, std::size_t i,
+                                std::int64_t all_steps, std::ptrdiff_t left_out) {
+            runtime::ScratchVector<Neighbor> found =
+                search.nearest(query, all_steps, count, left_out);
+            give_indices(found);
+            write(i, found);
+        };
+        ask(X, view, options, control, std::ref(answer));
     }
 
     std::vector<std::vector<Neighbor>> radius_neighbors(const std::vector<CurveView>* X,
@@ -134,17 +139,15 @@ class Index::State {
         curves::check_limit("radius", radius, measure_->may_be_negative());
         std::vector<std::vector<Neighbor>> results(
             X == nullptr ? static_cast<std::size_t>(view.seen.remaining) : X->size());
-        ask(X, view, options, control,
-            [&](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
-                std::ptrdiff_t left_out) {
-                results[i] =
-                    search.within(query, all_steps, radius,
-                                  options.with_distances || options.sort_results, left_out);
-                if (options.sort_results) {
-                    std::sort(results[i].begin(), results[i].end(), nearest::is_nearer);
-                }
-                results[i] = with_indices(std::move(results[i]));
-            });
+        const auto answer = [&](NeighborSearch& search, TargetQuery& query, std::size_t i,
+                                std::int64_t all_steps, std::ptrdiff_t left_out) {
+            runtime::ScratchVector<Neighbor> found = search.within(
+                query, all_steps, radius, options.with_distances || options.sort_results, left_out);
+            if (options.sort_results) std::sort(found.begin(), found.end(), nearest::is_nearer);
+            give_indices(found);
+            results[i].assign(found.begin(), found.end());
+        };
+        ask(X, view, options, control, std::ref(answer));
         return results;
     }
 
@@ -164,9 +167,9 @@ class Index::State {
         for (const std::ptrdiff_t j : targets) indices.push_back(indices_[j]);
         return indices;
     }
-    std::vector<Neighbor> with_indices(std::vector<Neighbor> targets) const noexcept {
+    // Replaces the number of each target.
+    void give_indices(runtime::ScratchVector<Neighbor>& targets) const noexcept {
         for (Neighbor& found : targets) found.index = indices_[found.index];
-        return targets;
     }
 
     void refuse_reports(const std::string& call, const std::string& why) const {
@@ -246,11 +249,13 @@ class Index::State {
                 queries.curves.push_back(checked_curve(list[i], list.name_of(i), poller));
             }
         }
-        std::set<std::ptrdiff_t> sizes;
+        runtime::ScratchVector<std::ptrdiff_t> sizes;
         for (const CheckedCurve& P : queries.curves) {
-            sizes.insert(P.curve.size());
+            sizes.push_back(P.curve.size());
             targets_->check(LoadedCurve(P, poller).checked(), poller);
         }
+        std::sort(sizes.begin(), sizes.end());
+        sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
         for (const std::ptrdiff_t n : sizes) {
             for (const std::ptrdiff_t m : *view.sizes) measure_->check_sizes(n, m);
         }
@@ -268,8 +273,10 @@ class Index::State {
             check_shapes(measure_->requirements(), list);
         } else {
             const CurveView first = targets_->curve(0).curve;
-            const std::string name = "curve " + std::to_string(indices_[0]) + " of the index";
-            check_shapes(measure_->requirements(), {first, name.c_str()}, list);
+            char name[48];  // not a string, which would allocate
+            std::snprintf(name, sizeof name, "curve %lld of the index",
+                          static_cast<long long>(indices_[0]));
+            check_shapes(measure_->requirements(), {first, name}, list);
         }
     }
 
@@ -352,7 +359,7 @@ namespace {
 
 // Writes rows of `count` neighbors.
 auto writer(std::ptrdiff_t count, double* distances, std::int64_t* indices) {
-    return [=](std::size_t row, const std::vector<Neighbor>& neighbors) {
+    return [=](std::size_t row, const runtime::ScratchVector<Neighbor>& neighbors) {
         std::ptrdiff_t place = static_cast<std::ptrdiff_t>(row) * count;
         for (const Neighbor& found : neighbors) {
             distances[place] = found.distance;
@@ -384,7 +391,7 @@ std::vector<Neighbor> Index::kneighbors(std::ptrdiff_t n_neighbors, const Search
     state().kneighbors(
         nullptr, n_neighbors, options, control,
         [&](std::size_t rows) { all.resize(rows * static_cast<std::size_t>(n_neighbors)); },
-        [&](std::size_t row, const std::vector<Neighbor>& neighbors) {
+        [&](std::size_t row, const runtime::ScratchVector<Neighbor>& neighbors) {
             std::copy(neighbors.begin(), neighbors.end(),
                       all.begin() + static_cast<std::ptrdiff_t>(row) * n_neighbors);
         });

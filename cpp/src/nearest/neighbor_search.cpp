@@ -100,9 +100,9 @@ NeighborSearch::BoxBounds NeighborSearch::bounds_of(TargetQuery& query, const Bo
     return boxes;
 }
 
-std::vector<Neighbor> NeighborSearch::nearest(TargetQuery& query, std::int64_t all_steps,
-                                              std::ptrdiff_t count_wanted,
-                                              std::ptrdiff_t left_out) {
+runtime::ScratchVector<Neighbor> NeighborSearch::nearest(TargetQuery& query, std::int64_t all_steps,
+                                                         std::ptrdiff_t count_wanted,
+                                                         std::ptrdiff_t left_out) {
     const OwnCount own_count(poller_);
     counted_ = 0;
     most_ = static_cast<std::size_t>(count_wanted);
@@ -197,14 +197,14 @@ void NeighborSearch::look_at(TargetQuery& query, Candidate candidate) {
     finish_pair(query, candidate.target);
 }
 
-std::vector<Neighbor> NeighborSearch::within(TargetQuery& query, std::int64_t all_steps,
-                                             double radius, bool with_distances,
-                                             std::ptrdiff_t left_out) {
+runtime::ScratchVector<Neighbor> NeighborSearch::within(TargetQuery& query, std::int64_t all_steps,
+                                                        double radius, bool with_distances,
+                                                        std::ptrdiff_t left_out) {
     const OwnCount own_count(poller_);
     counted_ = 0;
     left_out_ = left_out;
     record_.pairs += seen_.remaining - (left_out >= 0 ? 1 : 0);
-    std::vector<Neighbor> found;
+    runtime::ScratchVector<Neighbor> found;
     const auto look_at = [&](std::ptrdiff_t target) {
         if (is_wanted(target)) look_within(query, target, radius, with_distances, found);
     };
@@ -261,7 +261,7 @@ void NeighborSearch::find_leaves(TargetQuery& query, int tree, int level, std::p
 }
 
 void NeighborSearch::look_within(TargetQuery& query, std::ptrdiff_t target, double radius,
-                                 bool with_distances, std::vector<Neighbor>& found) {
+                                 bool with_distances, runtime::ScratchVector<Neighbor>& found) {
     const int levels = query.levels();
     if (levels > 1) ++record_.refined;
     int level = 1;

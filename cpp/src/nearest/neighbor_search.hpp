@@ -19,6 +19,7 @@
 #include "curvewise/nearest.hpp"
 #include "pairwise/targets.hpp"
 #include "runtime/poller.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::nearest {
 
@@ -37,11 +38,12 @@ class NeighborSearch {
 
     // The `count` nearest, in order. `left_out`: a target to skip, or -1. Counts `all_steps` as
     // done.
-    std::vector<Neighbor> nearest(TargetQuery& query, std::int64_t all_steps, std::ptrdiff_t count,
-                                  std::ptrdiff_t left_out);
+    runtime::ScratchVector<Neighbor> nearest(TargetQuery& query, std::int64_t all_steps,
+                                             std::ptrdiff_t count, std::ptrdiff_t left_out);
     // All within `radius`, by index; the distances are nan where they are not wanted.
-    std::vector<Neighbor> within(TargetQuery& query, std::int64_t all_steps, double radius,
-                                 bool with_distances, std::ptrdiff_t left_out);
+    runtime::ScratchVector<Neighbor> within(TargetQuery& query, std::int64_t all_steps,
+                                            double radius, bool with_distances,
+                                            std::ptrdiff_t left_out);
 
     const SearchRecord& record() const noexcept { return record_; }
 
@@ -87,7 +89,7 @@ class NeighborSearch {
     void for_marked_within(TargetQuery& query, double radius, LookAt look_at);
     // Adds a target whose first bound is within the radius to `found`, if it is, too.
     void look_within(TargetQuery& query, std::ptrdiff_t target, double radius, bool with_distances,
-                     std::vector<Neighbor>& found);
+                     runtime::ScratchVector<Neighbor>& found);
     // Writes the first bounds of targets, or of those in a leaf, to quick_.
     void bound(TargetQuery& query, std::ptrdiff_t first, std::ptrdiff_t end);
     void bound(TargetQuery& query, const OpenLeaf& leaf);
@@ -119,13 +121,13 @@ class NeighborSearch {
     pairwise::Seen seen_;
     Poller& poller_;
     std::unique_ptr<pairwise::ThreadMemory> memory_;
-    std::vector<double> quick_;  // first bounds, with room for those of a leaf
-    std::vector<Candidate> heap_;
-    std::vector<std::uint64_t> marks_;  // one bit for each target in a tree
-    std::vector<OpenLeaf> leaves_;
+    runtime::ScratchVector<double> quick_;  // first bounds, with room for those of a leaf
+    runtime::ScratchVector<Candidate> heap_;
+    runtime::ScratchVector<std::uint64_t> marks_;  // one bit for each target in a tree
+    runtime::ScratchVector<OpenLeaf> leaves_;
     std::size_t most_leaves_ = 0;
     std::ptrdiff_t left_out_ = -1;
-    std::vector<Neighbor> best_;  // a heap with the furthest on top
+    runtime::ScratchVector<Neighbor> best_;  // a heap with the furthest on top
     std::size_t most_ = 0;
     std::int64_t counted_ = 0;
     SearchRecord record_;

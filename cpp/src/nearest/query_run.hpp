@@ -13,6 +13,7 @@
 #include "curves/checks.hpp"
 #include "nearest/neighbor_search.hpp"
 #include "pairwise/targets.hpp"
+#include "runtime/scratch.hpp"
 
 namespace curvewise::nearest {
 
@@ -26,7 +27,7 @@ using Answer = std::function<void(NeighborSearch& search, TargetQuery& query, st
 
 // The queries of one call: curves of the caller's, or those of the index, each without itself.
 struct Queries {
-    std::vector<CheckedCurve> curves;
+    runtime::ScratchVector<CheckedCurve> curves;
     std::vector<std::ptrdiff_t> targets;  // none where they are the caller's
 
     std::ptrdiff_t left_out(std::size_t i) const noexcept {

@@ -10,10 +10,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 #include "curves/checks.hpp"
 #include "pairwise/bound_tree.hpp"
+#include "runtime/scratch.hpp"
 #include "warping/box_tree.hpp"
 #include "warping/kept_bounds.hpp"
 #include "warping/warping_problem.hpp"
@@ -57,7 +57,7 @@ class FirstBounds {
     double largest_;
     std::ptrdiff_t n_;
     std::ptrdiff_t dim_;
-    std::vector<double> summary_;
+    runtime::ScratchVector<double> summary_;
 };
 
 }  // namespace curvewise::warping

@@ -103,7 +103,8 @@ std::vector<Neighbor> in_order(const double* row, std::ptrdiff_t count, std::ptr
     return all;
 }
 
-void check_equal(const std::vector<Neighbor>& found, const std::vector<Neighbor>& expected) {
+template <class Found, class Expected>
+void check_equal(const Found& found, const Expected& expected) {
     CHECK_EQUAL(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size() && k < expected.size(); ++k) {
         CHECK_EQUAL(found[k].index, expected[k].index);
@@ -264,7 +265,7 @@ void trees_change_no_count() {
             const CheckedCurve P(curves[static_cast<std::size_t>(i)], "P", poller, on_sphere);
             NeighborSearch search(*targets, seen, poller), linear(*targets, without_trees, poller);
             const auto query = targets->query(P, poller);
-            const std::vector<Neighbor> found = search.nearest(*query, 0, 1 + i, i);
+            const auto found = search.nearest(*query, 0, 1 + i, i);
             const auto again = targets->query(P, poller);
             check_equal(found, linear.nearest(*again, 0, 1 + i, i));
             CHECK(are_equal(search.record(), linear.record()));
@@ -286,7 +287,7 @@ void many_leaves_are_read_in_order() {
     for (int j = 0; j < 300 * leaf; ++j) {
         curves.push_back(j % 2 == 0 ? random.curve(2, 2) : random.lattice_curve(2, 2));
     }
-    targets->reserve(views_of(curves), true);
+    targets->reserve(views_of(curves), pairwise::PointSource::others);
     for (const Curve& curve : curves) {
         targets->add(CheckedCurve(curve, "curve", poller, false), poller);
     }
@@ -300,7 +301,7 @@ void many_leaves_are_read_in_order() {
     NeighborSearch search(*targets, seen, poller), linear(*targets, without_trees, poller);
     const auto query = targets->query(CheckedCurve(curves[4], "P", poller, false), poller);
     for (const std::ptrdiff_t k : {std::ptrdiff_t{1}, 200 * leaf, 290 * leaf}) {
-        const std::vector<Neighbor> found = search.nearest(*query, 0, k, 4);
+        const auto found = search.nearest(*query, 0, k, 4);
         check_equal(found, linear.nearest(*query, 0, k, 4));
         const double radius = found.back().distance;
         check_equal(search.within(*query, 0, radius, true, 4),

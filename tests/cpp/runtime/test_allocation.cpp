@@ -201,7 +201,7 @@ void gradients() {
 }
 
 // An index that could not be made, or not be added to, is as it was.
-void nearest() {
+void nearest_curves() {
     Random random(11);
     std::vector<Curve> curves;
     for (int i = 0; i < 8; ++i) curves.push_back(random.walk(20 + i));
@@ -338,7 +338,7 @@ int main() {
     return check::run({{"single calls", single_calls},
                        {"continuous calls", continuous_calls},
                        {"gradients", gradients},
-                       {"nearest", nearest},
+                       {"nearest curves", nearest_curves},
                        {"long calls", long_calls},
                        {"batches", batches},
                        {"from C", from_c}});

@@ -184,6 +184,22 @@ void results() {
         "subsequences", [&] { subsequences(P, stream); }, 1);
 }
 
+void searches() {
+    Random random(11);
+    const std::vector<Curve> curves = templates(random);
+    const std::vector<CurveView> X = test::views_of(curves), one{X[17]};
+    std::vector<double> distances(3 * X.size());
+    std::vector<std::int64_t> places(3 * X.size());
+    for_each_measure([&](const auto& options) {
+        const check::Note note(options.measure);
+        const Index index(X, options);
+        expect("kneighbors", [&] { index.kneighbors(one, 3, distances.data(), places.data()); });
+        // The list of lists, and the list.
+        expect(
+            "radius_neighbors", [&] { index.radius_neighbors(one, 1e6); }, 2);
+    });
+}
+
 // A Report calls the function that reports: each has memory of its own.
 void a_call_within_a_call() {
     Random random(6);
@@ -315,6 +331,7 @@ int main() {
          {"options of areas", options_of_areas},
          {"batches", batches},
          {"results", results},
+         {"searches", searches},
          {"a call within a call", a_call_within_a_call},
          {"an exception", an_exception},
          {"kept memory is bounded", kept_memory_is_bounded},
