@@ -90,7 +90,9 @@ def library(
     shared = place / f"libcurvewise.{'dylib' if sys.platform == 'darwin' else 'so'}"
     if request.param == "static":
         shared = tmp_path_factory.mktemp("c_interface") / "interface.so"
-        sources = sorted((ROOT / "cpp/src/interface").glob("c_*.cpp"))
+        # With all that shares an object file with it in the package, or symbols clash.
+        sources = sorted((ROOT / "cpp/src/interface").glob("*.cpp"))
+        sources = [one for one in sources if one.name != "build_info.cpp"]  # needs CMake's macros
         together = shared.with_suffix(".cpp")
         together.write_text("".join(f'#include "interface/{one.name}"\n' for one in sources))
         options = ["-std=c++17", "-shared", "-fPIC", "-DCURVEWISE_SHARED", "-DCURVEWISE_BUILDING"]
