@@ -44,9 +44,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
     It holds ``prefix``, where the library is installed, and ``printed.txt``: what the program of
     the page printed, where there is one.
     """
-    base = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        base = base.parent  # of all processes of this session
+    base = _base_of_all(tmp_path_factory)
 
     def folder_of(kind: str) -> Path:
         folder, failure = base / f"library_{kind}", base / f"library_{kind}.failure"
@@ -109,16 +107,26 @@ def examples(
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Path:
     """Return the folder of the examples, built by CMake with a library that has been moved."""
-    folder = tmp_path_factory.mktemp("examples")
-    options = [
-        f"-DCMAKE_PREFIX_PATH={prefix(request.param)}",
-        f"-DEigen3_DIR={eigen() / 'share/eigen3/cmake'}",
-        "-DCMAKE_C_FLAGS=" + " ".join(WARNINGS),
-        "-DCMAKE_CXX_FLAGS=" + " ".join(WARNINGS),
-        "-DCMAKE_Fortran_FLAGS=-std=f2018 -Wall -Wextra -pedantic -Werror",
-    ]
-    build(ROOT / "cpp" / "examples", folder, *options)
+    base = _base_of_all(tmp_path_factory)
+    folder, is_built = base / f"examples_{request.param}", base / f"examples_{request.param}.built"
+    with FileLock(base / f"examples_{request.param}.lock"):
+        if not is_built.exists():
+            options = [
+                f"-DCMAKE_PREFIX_PATH={prefix(request.param)}",
+                f"-DEigen3_DIR={eigen() / 'share/eigen3/cmake'}",
+                "-DCMAKE_C_FLAGS=" + " ".join(WARNINGS),
+                "-DCMAKE_CXX_FLAGS=" + " ".join(WARNINGS),
+                "-DCMAKE_Fortran_FLAGS=-std=f2018 -Wall -Wextra -pedantic -Werror",
+            ]
+            build(ROOT / "cpp" / "examples", folder, *options)
+            is_built.touch()
     return folder
+
+
+def _base_of_all(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the temporary folder that all processes of this session share."""
+    base = tmp_path_factory.getbasetemp()
+    return base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
 
 
 def _build(kind: str, work: Path) -> Path:
