@@ -112,8 +112,8 @@ def pytest_report_header(config: pytest.Config) -> list[str]:
     lines = []
     if config.args == config.getini("testpaths"):
         lines.append(
-            "curvewise: some 6200 tests; they also build programs that use the library; about "
-            "three minutes on two cores"
+            "curvewise: some 8600 tests; they also build programs that use the library; about "
+            "five minutes on two cores"
         )
     if leaves_out_nightly(config):
         lines.append("curvewise: without the tests for the night, which take long (-m nightly)")

@@ -88,7 +88,7 @@ def _written(value: Any, what: str) -> Any:
     try:
         return operator.index(value)
     except TypeError:
-        if isinstance(value, Real):
+        if isinstance(value, Real) and (float(value) == value or value != value):
             return float(value)
     raise TypeError(f"save cannot write {what}")
 

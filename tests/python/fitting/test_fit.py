@@ -210,11 +210,15 @@ def test_what_hardens_along_a_line_has_no_saturation_and_that_is_said(data_dir: 
 def test_a_search_does_not_end_in_a_corner_of_its_bounds(data_dir: Path) -> None:
     # The two surfaces have the same size here, and neither moves. The result was 4.79 to 5.6 MPa,
     # in five starts of six, when steps went to the bounds. scipy's best of fifty starts: 4.661 MPa.
-    # A local minimum has 4.765 MPa, and the last digits of a machine decide which one is found.
-    name = data_dir / "cyclic" / "resslab_example_3.csv"
-    fit = fit_material(read_curve(name, ["e_true", "Sigma_true"]), YoshidaUemori(), progress=False)
-    residuals = fit.found.simulations[0] - fit.tests[0]
-    assert np.sqrt((residuals[:, 1] ** 2).mean()) < 4.78
+    # There is a local minimum of 4.765 MPa, and the last digits of a machine decide which seed of
+    # two leaves it.
+    test = read_curve(data_dir / "cyclic" / "resslab_example_3.csv", ["e_true", "Sigma_true"])
+    deviations = []
+    for seed in (0, 1):
+        fit = fit_material(test, YoshidaUemori(), seed=seed, progress=False)
+        residuals = fit.found.simulations[0] - fit.tests[0]
+        deviations.append(np.sqrt((residuals[:, 1] ** 2).mean()))
+    assert min(deviations) < 4.67
 
 
 def test_tension_alone_does_not_tell_one_hardening_from_the_other(fit: MaterialFit) -> None:

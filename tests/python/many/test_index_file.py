@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -194,6 +195,9 @@ def test_what_cannot_be_written_leaves_the_old_file(tmp_path):
     Index([[0.0]], "dtw").save(path)
     index = Index({pd.Timestamp("2026-11-29"): [1.0]})
     with pytest.raises(TypeError, match=r"^save cannot write the label Timestamp\(.*; give text"):
+        index.save(path)
+    index = Index({Fraction(1, 3): [1.0]})  # which no float is
+    with pytest.raises(TypeError, match=r"^save cannot write the label Fraction\(1, 3\); "):
         index.save(path)
     index = Index([[1.0]])
     index._options = {"window": object()}
