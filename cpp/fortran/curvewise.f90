@@ -184,6 +184,9 @@ module curvewise
         procedure :: add => add_curves          ! (curves, stat, errmsg, control)
         procedure :: remove => remove_curves    ! (indices, stat, errmsg)
         procedure :: size => index_size
+        procedure :: indices => index_indices   ! (indices, stat, errmsg)
+        procedure :: save => save_index         ! (path, stat, errmsg, control)
+        procedure :: open => open_index         ! (path, options, stat, errmsg, control)
         ! (X, n_neighbors, distances, indices, workers, stat, errmsg, control)
         procedure :: kneighbors
         ! (X, radius, starts, distances, indices, workers, stat, errmsg, control)

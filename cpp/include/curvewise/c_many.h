@@ -65,6 +65,22 @@ CURVEWISE_EXPORT int curvewise_index_remove(curvewise_index* index, const int64_
                                             ptrdiff_t count, curvewise_error* error);
 /** The number of its curves, without those removed; 0 for NULL. */
 CURVEWISE_EXPORT ptrdiff_t curvewise_index_size(const curvewise_index* index);
+/** Writes the indices of its curves in ascending order, and their number to *count. If there are
+ * more than `capacity`, the call returns CURVEWISE_NO_ROOM and writes only *count. */
+CURVEWISE_EXPORT int curvewise_index_indices(const curvewise_index* index, int64_t* indices,
+                                             ptrdiff_t capacity, ptrdiff_t* count,
+                                             curvewise_error* error);
+/** Writes a file of the curves, without those removed, with their indices. At the end, the file
+ * replaces another of this name. If the call fails, an older file stays as it is. The name is in
+ * UTF-8 on Windows, and as the system has it elsewhere. */
+CURVEWISE_EXPORT int curvewise_index_save(const curvewise_index* index, const char* path,
+                                          curvewise_control* control, curvewise_error* error);
+/** Opens a file of curvewise_index_save(), of C++ or of Python. Processes that open the same file
+ * share its points in memory. CURVEWISE_FAILED says that there is no such file, that it is damaged,
+ * or that it is no index. curvewise_index_destroy() frees the index. */
+CURVEWISE_EXPORT int curvewise_index_open(const char* path, int measure, const void* options,
+                                          curvewise_control* control, curvewise_index** index,
+                                          curvewise_error* error);
 
 /** Writes the n_neighbors nearest of X[i] to distances[i * n_neighbors] and indices[i *
  * n_neighbors] on, in ascending order. n_neighbors is from 1 to the size of the index. */

@@ -142,6 +142,35 @@ ptrdiff_t curvewise_index_size(const curvewise_index* index) {
     return index == nullptr ? 0 : static_cast<ptrdiff_t>(index->index.size());
 }
 
+int curvewise_index_indices(const curvewise_index* index, int64_t* indices, ptrdiff_t capacity,
+                            ptrdiff_t* count, curvewise_error* error) {
+    return guarded(error, [&] {
+        const std::vector<int64_t> present = at(index, "index").index.indices();
+        curvewise::c::write_count(present.size(), capacity, at(count, "count"));
+        if (!present.empty()) require(indices, "indices");
+        std::copy(present.begin(), present.end(), indices);
+    });
+}
+
+int curvewise_index_save(const curvewise_index* index, const char* path, curvewise_control* control,
+                         curvewise_error* error) {
+    return guarded(error, [&] {
+        require(path, "path");
+        at(index, "index").index.save(path, {}, control_of(control));
+    });
+}
+
+int curvewise_index_open(const char* path, int measure, const void* options,
+                         curvewise_control* control, curvewise_index** index,
+                         curvewise_error* error) {
+    return guarded(error, [&] {
+        curvewise_index*& opened = at(index, "index");
+        require(path, "path");
+        opened = new curvewise_index{curvewise::Index::open(
+            path, measure_of(measure, options).measure, control_of(control))};
+    });
+}
+
 int curvewise_index_kneighbors(const curvewise_index* index, const curvewise_curve* X,
                                ptrdiff_t count, ptrdiff_t n_neighbors,
                                const curvewise_search_options* options, double* distances,

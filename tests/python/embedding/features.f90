@@ -66,7 +66,7 @@ contains
 
     subroutine of_handles()
         type(prepared_curve) :: prepared
-        type(curve_index) :: index
+        type(curve_index) :: index, reopened
         real(real64), allocatable :: values(:), distances(:, :), near(:)
         integer(c_int64_t), allocatable :: indices(:, :), within(:)
         integer(c_ptrdiff_t), allocatable :: starts(:)
@@ -87,6 +87,15 @@ contains
         call index%radius_neighbors([curve_view(Q), curve_view(P)], 100.0_real64, starts, near, within)
         call show('within', real(starts(3) - starts(2), real64))
         call show('within_sum', sum(near))
+        call index%save('features.index  ')
+        call reopened%open('features.index', frechet_options(), stat, message)
+        if (stat /= 0) error stop 'not opened'
+        call reopened%indices(within)
+        call show('indices', real(sum(within), real64))
+        call reopened%kneighbors([curve_view(Q)], 3, distances, indices)
+        call show('third_of_file', distances(3, 1))
+        call reopened%open('none.index', frechet_options(), stat, message)
+        print '(a)', 'no file: ' // trim(message)
         call index%remove([6_c_int64_t], stat, message)
         print '(a)', 'removed twice: ' // trim(message)
         call index%kneighbors([curve_view(Q)], 0, distances, indices, stat=stat, errmsg=message)

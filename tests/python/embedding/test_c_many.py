@@ -7,10 +7,12 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from ctypes import byref, c_double, c_int64, c_ssize_t, c_void_p
+from pathlib import Path
 
 import numpy as np
 import pytest
 from c_structs import (
+    FAILED,
     INVALID_ARGUMENT,
     MEASURES,
     NO_ROOM,
@@ -155,6 +157,14 @@ def test_index(typed, index) -> None:
         np.testing.assert_array_equal(indices, expected[1])
 
 
+def nearest_of(typed, index) -> tuple[bytes, bytes]:
+    """Return the bytes of the distances and indices of the 13 curves nearest to Q."""
+    distances, indices = np.empty(13), np.empty(13, np.int64)
+    arguments = curves(Q), c_ssize_t(1), c_ssize_t(13), None, doubles(distances), integers(indices)
+    assert typed.curvewise_index_kneighbors(index, *arguments, None) == OK
+    return distances.tobytes(), indices.tobytes()
+
+
 def test_removed(typed, index) -> None:
     error, gone = Error(), np.array([3, 7])
 
@@ -167,11 +177,55 @@ def test_removed(typed, index) -> None:
     assert error.message
     assert remove(-1) == INVALID_ARGUMENT
     assert error.message == b"there are -1 indices; give a whole number >= 0"
-    distances, indices = np.empty(13), np.empty(13, np.int64)
-    one = c_ssize_t(1)
-    arguments = curves(Q), one, c_ssize_t(13), None, doubles(distances), integers(indices)
-    assert typed.curvewise_index_kneighbors(index, *arguments, byref(error)) == OK
+    indices = np.frombuffer(nearest_of(typed, index)[1], np.int64)
     assert set(indices) == set(range(15)) - {3, 7}
+
+
+def test_saved_and_opened(typed, index, tmp_path) -> None:
+    """An index of C, and one of Python."""
+    error, count, indices = Error(), c_ssize_t(-1), np.full(13, -1)
+    paths = [str(tmp_path / name).encode() for name in ("of_c.index", "of_python.index")]
+    typed.curvewise_index_remove(index, integers(np.array([3, 7])), c_ssize_t(2), byref(error))
+    assert typed.curvewise_index_save(index, paths[0], None, byref(error)) == OK, error.message
+    of_python = curvewise.Index(X[:15])
+    of_python.remove([3, 7])
+    of_python.save(paths[1].decode())
+    for path in paths:
+        opened = c_void_p()
+        into = byref(opened), byref(error)
+        assert typed.curvewise_index_open(path, DTW, None, None, *into) == OK, error.message
+        for room, status in ((12, NO_ROOM), (13, OK)):
+            indices[:] = -1
+            into = c_ssize_t(room), byref(count), byref(error)
+            assert typed.curvewise_index_indices(opened, integers(indices), *into) == status
+            assert count.value == 13
+            assert set(indices) == (set(range(15)) - {3, 7} if status == OK else {-1})
+        assert nearest_of(typed, opened) == nearest_of(typed, index)
+        typed.curvewise_index_destroy(opened)
+
+
+def test_files_refused(typed, index, control, tmp_path) -> None:
+    error, opened = Error(), c_void_p()
+    path = str(tmp_path / "curves.index").encode()
+
+    def open_it() -> int:
+        into = byref(opened), byref(error)
+        return typed.curvewise_index_open(path, DTW, None, None, *into)
+
+    assert open_it() == FAILED
+    assert b"curves.index" in error.message
+    Path(path.decode()).write_bytes(b"x,y\n0,0\n" * 1000)
+    assert open_it() == FAILED
+    assert b"curves.index" in error.message
+    stop = control()
+    typed.curvewise_control_stop(stop)
+    assert typed.curvewise_index_save(index, path, stop, byref(error)) == STOPPED
+    assert Path(path.decode()).read_bytes().startswith(b"x,y")
+    for given, name in ((None, b"path"), (path, b"index")):
+        refused = typed.curvewise_index_save(None if given else index, given, None, byref(error))
+        assert refused == INVALID_ARGUMENT
+        assert error.message == name + b" is a null pointer"
+    assert opened.value is None
 
 
 def test_radius(typed, index) -> None:

@@ -62,6 +62,8 @@ def expected() -> dict[str, float]:
         "nearest": float([*range(1, 6), *range(7, 101)][int(np.argmin(of_kept))]),
         "third": np.sort(of_kept)[2],
         "within": 99.0,
+        "indices": 5050.0 - 6,
+        "third_of_file": np.sort(of_kept)[2],
         "done": 0.0,
         "stopped": 0.0,
         "strain": steel.strain([300.0, -300.0], constants)[1],
@@ -77,7 +79,7 @@ def test_everything_that_the_module_has(prefix, tmp_path) -> None:
     source = tmp_path / "features.f90"
     source.write_text((Path(__file__).parent / "features.f90").read_text(encoding="utf-8"))
     output(*compiled(prefix, source, "-fsanitize=address"))
-    printed = output(tmp_path / "features", ASAN_OPTIONS="detect_leaks=1")
+    printed = output(tmp_path / "features", cwd=tmp_path, ASAN_OPTIONS="detect_leaks=1")
     found = numbers(printed)
     wanted = expected()
     assert {name: found[name] for name in wanted} == wanted
@@ -86,6 +88,8 @@ def test_everything_that_the_module_has(prefix, tmp_path) -> None:
         ("pdist", curvewise.pdist([loop(9, 0.0625 * i) for i in range(1, 101)], "dtw")),
     ):
         assert found[name] == pytest.approx(np.sum(sum_of))
+    assert "no file: " in printed
+    assert "none.index" in printed
     assert "removed twice: indices[0] is 5" in printed
     assert "no neighbours: n_neighbors is 0" in printed
     assert "stopped: stopped before the work was done" in printed
