@@ -13,6 +13,10 @@
 /// Work is counted in nominal steps. For dtw and frechet these are cells of the table, n m for a
 /// pair of n and m points (twice that for a path). For the other measures they are points, n + m
 /// for a pair.
+///
+/// A program with a thread pool lends it to a call, which then starts no thread of its own:
+///
+///     control.run_on([&](std::function<void()> task) { pool.submit(std::move(task)); });
 #pragma once
 
 #include <atomic>
@@ -44,6 +48,9 @@ class Control {
     /// all its threads, and the call then throws it.
     using Report = std::function<bool(std::int64_t done, std::int64_t total)>;
 
+    /// Passes a task to a thread pool, and returns without waiting for it.
+    using Executor = std::function<void(std::function<void()> task)>;
+
     Control() = default;
     explicit Control(Report report,
                      std::chrono::milliseconds interval = std::chrono::milliseconds(50))
@@ -54,6 +61,14 @@ class Control {
     Control& operator=(Control&&) = delete;
     ~Control() = default;
 
+    /// Calls with more than one worker give their work to `executor`, as workers - 1 tasks, in the
+    /// place of new threads. The thread that makes the call works too, and its call ends when the
+    /// work is done. Tasks that begin later return at once. Thus a busy pool makes a call slower,
+    /// and a pool whose threads call the library does not deadlock. If `executor` throws, fewer
+    /// threads work. Results do not depend on it. Not during a call; an empty function is the
+    /// default.
+    void run_on(Executor executor) { executor_ = std::move(executor); }
+
     void stop() noexcept { stopped_.store(true, std::memory_order_relaxed); }
     bool stopped() const noexcept { return stopped_.load(std::memory_order_relaxed); }
     std::int64_t done() const noexcept { return done_.load(std::memory_order_relaxed); }
@@ -63,6 +78,7 @@ class Control {
     friend class runtime::Poller;
 
     Report report_;
+    Executor executor_;
     std::chrono::milliseconds interval_{50};
     std::atomic<bool> stopped_{false};
     std::atomic<std::int64_t> done_{0};

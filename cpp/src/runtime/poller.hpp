@@ -83,6 +83,10 @@ class Poller {
     }
 
     Control* control() const noexcept { return control_; }
+    // Null where the library starts its own threads.
+    const Control::Executor* executor() const noexcept {
+        return control_ != nullptr && control_->executor_ ? &control_->executor_ : nullptr;
+    }
 
    private:
     using Clock = std::chrono::steady_clock;

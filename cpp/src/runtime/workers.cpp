@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -17,6 +18,43 @@ constexpr std::chrono::milliseconds nap(20);
 // Tests before a waiting thread sleeps: about 50 µs, which may be less than the time to wake it up.
 // Each test yields its core to other threads.
 constexpr int looks = 200;
+
+// The threads that do the work of a call, besides the one that makes it. Tasks that an executor
+// begins late outlive the call, and find only this.
+class Crew {
+   public:
+    // Whether there is still work; leave() follows.
+    bool enter() {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (is_closed_) return false;
+        ++at_work_;
+        return true;
+    }
+
+    void leave() {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        --at_work_;
+        left_.notify_one();
+    }
+
+    // Waits for those at work. Meanwhile the poller reports, and checks for a stop.
+    void close(Poller& poller) {
+        std::unique_lock<std::mutex> lock(mutex_);
+        is_closed_ = true;
+        while (at_work_ > 0) {
+            left_.wait_for(lock, nap, [&] { return at_work_ == 0; });
+            lock.unlock();
+            poller.poll();
+            lock.lock();
+        }
+    }
+
+   private:
+    std::mutex mutex_;
+    std::condition_variable left_;
+    std::ptrdiff_t at_work_ = 0;
+    bool is_closed_ = false;
+};
 
 }  // namespace
 
@@ -32,43 +70,32 @@ std::ptrdiff_t resolve_workers(std::ptrdiff_t workers) {
 }
 
 void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work) {
-    std::vector<std::thread> threads;
-    if (count > 1) threads.reserve(static_cast<std::size_t>(count - 1));
-    std::mutex mutex;
-    std::condition_variable ended;
-    std::size_t at_work = 0;
-    const auto run = [&](std::ptrdiff_t w) {
-        {
-            Poller own(poller.control(), Poller::Role::worker);
-            work(w, own);
-        }
-        const std::lock_guard<std::mutex> lock(mutex);
-        --at_work;
-        ended.notify_one();
-    };
+    const std::shared_ptr<Crew> crew = count > 1 ? std::make_shared<Crew>() : nullptr;
     const bool was_sharing = poller.set_sharing(true);
+    std::vector<std::thread> threads;
     try {
         for (std::ptrdiff_t w = 1; w < count; ++w) {
-            {
-                const std::lock_guard<std::mutex> lock(mutex);
-                ++at_work;
+            const auto task = [crew, w, &work, control = poller.control()] {
+                if (!crew->enter()) return;
+                {
+                    Poller own(control, Poller::Role::worker);
+                    work(w, own);
+                }
+                crew->leave();
+            };
+            if (const Control::Executor* executor = poller.executor()) {
+                (*executor)(task);
+            } else {
+                if (w == 1) threads.reserve(static_cast<std::size_t>(count - 1));
+                threads.emplace_back(task);
             }
-            threads.emplace_back(run, w);
         }
-    } catch (const std::exception&) {
-        // The system refuses another thread (std::system_error), or the memory to start one
-        // (std::bad_alloc). The running threads, and this one, do the work.
-        const std::lock_guard<std::mutex> lock(mutex);
-        --at_work;
+    } catch (...) {
+        // There is no other thread, or no memory to start one. The running threads, and this one,
+        // do the work.
     }
     work(0, poller);
-    // Not joined at once: the poller continues to report, and to check for a stop, until the end.
-    for (std::unique_lock<std::mutex> lock(mutex); at_work > 0;) {
-        ended.wait_for(lock, nap, [&] { return at_work == 0; });
-        lock.unlock();
-        poller.poll();
-        lock.lock();
-    }
+    if (crew != nullptr) crew->close(poller);
     for (std::thread& thread : threads) thread.join();
     poller.set_sharing(was_sharing);
     if (!was_sharing) poller.rethrow_failure();

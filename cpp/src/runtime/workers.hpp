@@ -1,5 +1,6 @@
-// Threads for one call: started for it, joined before it returns. Nothing outlives a call and
-// nothing is shared between calls, so that calls may be made from any number of threads.
+// Threads for one call: started for it and joined before it returns, or lent by the executor of its
+// Control. No work outlives a call and nothing is shared between calls, so that calls may be made
+// from any number of threads.
 #pragma once
 
 #include <atomic>
@@ -18,9 +19,10 @@ namespace curvewise::runtime {
 std::ptrdiff_t resolve_workers(std::ptrdiff_t workers);
 
 // Calls work(w, poller) for w = 0, 1, ... in up to `count` threads. This thread is 0 and has
-// `poller`; the other threads have their own pollers. If the system refuses a thread, fewer threads
-// do the work, so `work` must share itself out. `work` must not throw. An exception of a report is
-// thrown when all threads have ended.
+// `poller`; the other threads have their own pollers. If the system refuses a thread, or the
+// executor has none, fewer threads do the work, so `work` must share itself out: what has not begun
+// when work(0) returns is left out. `work` must not throw. An exception of a report is thrown when
+// all threads have ended.
 using Work = std::function<void(std::ptrdiff_t w, Poller& poller)>;
 void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work);
 
