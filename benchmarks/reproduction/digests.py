@@ -38,10 +38,10 @@ CPP = HERE.parents[1] / "cpp"
 CALIBRATION = PACKAGE / "calibration"
 SEARCH = (
     HERE / "studies.py",
+    CALIBRATION / "answers" / "search.py",
     CALIBRATION / "identify.py",
     CALIBRATION / "methods" / "endings.py",
     CALIBRATION / "methods" / "method.py",
-    CALIBRATION / "methods" / "search.py",
     CALIBRATION / "objective" / "sampling.py",
     CALIBRATION / "problem" / "evaluations.py",
     CALIBRATION / "problem" / "execution.py",
@@ -57,17 +57,13 @@ METHODS = {
     ),
     "nelder-mead": (
         CALIBRATION / "methods" / "called_back.py",
-        CALIBRATION / "methods" / "restarted_simplex.py",
         CALIBRATION / "methods" / "simplex.py",
     ),
     "sdrm": (
         CALIBRATION / "methods" / "domain_reduction.py",
-        CALIBRATION / "surfaces" / "bfgs.py",
         CALIBRATION / "surfaces" / "inner_search.py",
         CALIBRATION / "surfaces" / "largest_distances.py",
-        CALIBRATION / "surfaces" / "nonsmooth_descent.py",
-        CALIBRATION / "surfaces" / "predicted_curves.py",
-        CALIBRATION / "surfaces" / "sums_of_distances.py",
+        CALIBRATION / "surfaces" / "quasi_newton.py",
         CALIBRATION / "surfaces" / "surfaces.py",
         PACKAGE / "curves" / "thinning.py",
         PACKAGE / "measures" / "gradient.py",

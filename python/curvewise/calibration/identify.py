@@ -13,11 +13,10 @@ from inspect import signature
 from typing import Any
 
 from .._bounds import Bounds
-from .answers.ended_search import identification_of
 from .answers.identification import Identification
+from .answers.search import Plan, identification_of
 from .methods import method_of
 from .methods.method import Method
-from .methods.search import Plan
 from .models.forward import ForwardModel, Selection, SingleModel
 from .models.pool import Model
 from .objective.cases import Case, Cases

@@ -20,13 +20,12 @@ from typing import Any
 import numpy as np
 
 from .._bounds import Bounds
-from .answers.ended_search import identification_of
 from .answers.identification import Identification
 from .answers.joined_searches import continued
+from .answers.search import Plan, identification_of
 from .answers.several_measures import SeveralMeasures
 from .methods import method_of
 from .methods.method import Method
-from .methods.search import Plan
 from .models.forward import SingleModel
 from .models.pool import Model
 from .objective.criterion import Measure
@@ -35,8 +34,8 @@ from .objective.objective import objectives_of
 from .problem.execution import Execution
 from .problem.problem import Problem
 from .problem.space import Space
+from .records.evaluation import Run
 from .records.store import SimulationStore, StoreOrPath
-from .surfaces.nearby_runs import Run
 
 __all__ = ["identify_each"]
 

@@ -21,10 +21,9 @@ import numpy as np
 from ..curves.inputs import Array
 from ..drawing.profiles import profile_of_a_parameter
 from ..showing.result import Result, Table
-from .answers.ended_search import identification_of
 from .answers.identification import Identification
+from .answers.search import Plan, identification_of
 from .methods.method import Method
-from .methods.search import Plan
 from .methods.trust_region import TrustRegion
 from .problem.tables import digits
 from .uncertainty.noise import Noise, noise_of

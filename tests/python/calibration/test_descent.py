@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from curvewise.calibration.methods.descent import Descent, Rules
+from curvewise.calibration.methods.descent import Descent, Part, Rules, simplex_around
 from curvewise.calibration.methods.runs import Noise, Runs
-from curvewise.calibration.methods.side_by_side import Part
-from curvewise.calibration.methods.starts import End, simplex_around
+from curvewise.calibration.methods.starts import End
 from curvewise.calibration.objective.criterion import Criterion
 from curvewise.calibration.objective.objective import Objective
 from curvewise.calibration.problem.ledger import Finish

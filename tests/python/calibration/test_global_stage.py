@@ -13,8 +13,7 @@ from curvewise.calibration.methods.global_stage import GlobalStage
 from curvewise.calibration.methods.runs import Runs
 from curvewise.calibration.surfaces.evolution import evolved
 from curvewise.calibration.surfaces.inner_search import CurveSearch
-from curvewise.calibration.surfaces.kriged_surface import KrigedSurface
-from curvewise.calibration.surfaces.values import lowest_value
+from curvewise.calibration.surfaces.kriged_surface import KrigedSurface, lowest_value
 
 # Two points, too far apart for any other coupling: the longer of two distances counts.
 TEST = np.array([[0.0, 0.0], [100.0, 0.0]])

@@ -11,7 +11,7 @@ from curvewise.calibration import Case, Criterion, Objective, identify
 from curvewise.calibration.objective.cases import Cases
 from curvewise.calibration.records.evaluation import Evaluation
 from curvewise.calibration.surfaces.inner_search import CurveSearch
-from curvewise.calibration.surfaces.nonsmooth_descent import nonsmooth_descent
+from curvewise.calibration.surfaces.quasi_newton import nonsmooth_descent
 from curvewise.calibration.surfaces.surfaces import Surfaces, thinned_rows
 
 X = np.linspace(0.0, 1.0, 31)

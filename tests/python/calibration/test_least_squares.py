@@ -16,8 +16,12 @@ from curvewise.calibration.models.pool import Outcome
 from curvewise.calibration.objective.objective import Objective
 from curvewise.calibration.problem.ledger import Ledger
 from curvewise.calibration.surfaces.kriged_surface import KrigedSurface
-from curvewise.calibration.surfaces.robust_losses import Loss, bend_of
-from curvewise.calibration.surfaces.sums_of_squares import linear_minimum, squares_minimum
+from curvewise.calibration.surfaces.sums_of_squares import (
+    Loss,
+    bend_of,
+    linear_minimum,
+    squares_minimum,
+)
 from curvewise.materials import ChabocheVoce
 
 X = np.linspace(0.0, 4.0, 40)

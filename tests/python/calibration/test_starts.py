@@ -14,17 +14,16 @@ from test_methods import BOUNDS, TRUE, model, quiet_identify
 
 from curvewise import datasets
 from curvewise.calibration import Criterion, Objective, TrustRegion
-from curvewise.calibration.methods.descent import Descent, Rules
+from curvewise.calibration.methods.descent import Descent, Part, Rules
 from curvewise.calibration.methods.global_stage import GlobalStage
+from curvewise.calibration.methods.multistart import places, side_by_side
 from curvewise.calibration.methods.runs import Noise, Runs
-from curvewise.calibration.methods.side_by_side import Part, side_by_side
 from curvewise.calibration.methods.starts import (
     End,
     are_alike,
     finish_of,
     is_enough,
     is_flat,
-    places,
 )
 from curvewise.calibration.problem.ledger import Finish
 

@@ -11,11 +11,10 @@ from dataclasses import replace
 from typing import Any
 
 from ..._names import did_you_mean
-from .auto import Auto
 from .differential_evolution import DifferentialEvolution
 from .domain_reduction import SDRM
 from .global_search import Global
-from .least_squares import LeastSquares
+from .least_squares import Auto, LeastSquares
 from .method import Method, options_of, refuse_unknown
 from .simplex import NelderMead
 from .trust_region import TrustRegion

@@ -1,11 +1,10 @@
 """Ask-and-tell interface: the caller runs the model and reports the results.
 
-It serves queues, libEnsemble, optimagic and other programs that run models themselves. Every method
-supports it, because every method is a course. `ask` returns the current batch of the course and the
-points that the course is known to request next. The course continues when all runs of the batch
-have been reported. Evaluations are numbered in the order in which the course requests them. The
-answer therefore depends neither on the order of arrival nor on the number of pending runs. Cost:
-the cost of the method.
+It serves queues, libEnsemble, optimagic and other programs that run models themselves. `ask`
+returns the current batch of a method's course and the points that the course is known to request
+next. The course continues when all runs of the batch have been reported. Evaluations are numbered
+in the order in which the course requests them. The answer therefore depends neither on the order of
+arrival nor on the number of pending runs.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Turns a function with a callback, such as a scipy optimiser, into a course.
 
-The function runs in its own thread, which waits for the results of its points. Only one of the two
-threads works at any time, so no shared data change concurrently. Cost: two thread switches per
-batch, about 50 microseconds.
+The function runs in its own thread, and one of the two threads always waits for the other. Cost:
+two thread switches per batch, about 50 microseconds.
 """
 
 from __future__ import annotations

@@ -1,14 +1,14 @@
 """One start of a search: a trust-region method on a surrogate of the curves.
 
 Each iteration minimises the surrogate within a trust region around the best run and runs the model
-at the minimiser. The radius grows or shrinks with the ratio of actual to predicted reduction. If
-the predicted reduction is negligible, geometry-improving steps run the model in directions with
-poor sampling. If all directions are sampled well, the global stage proposes other minima. If its
-predicted reduction is negligible too, the start has ended. A start is abandoned if it is far above
-the best run and predicts only a small part of the difference.
+at the minimiser. The radius follows the ratio of actual to predicted reduction. If the predicted
+reduction is negligible, geometry-improving steps run the model in directions with poor sampling. If
+there are none, the global stage proposes other minima. If its predicted reduction is negligible
+too, the start has ended. A start is abandoned if it is far above the best run and predicts only a
+small part of the difference.
 
 If repeated steps do not achieve their predicted reduction, the surrogate of the curves is
-misleading. The start then continues with a surrogate of the value (`surfaces.values`).
+misleading. The start then continues with a surrogate of the value (`lowest_value`).
 
 Cost: k + 1 runs for the initial design of k parameters, one run for every step and restart, and up
 to k runs to sample all directions at the end.
@@ -18,20 +18,25 @@ A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import dataclass
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 
 from ...curves.inputs import Array
 from ..problem.ledger import Finish
-from ..surfaces.values import lowest_value
+from ..records.evaluation import Evaluation
+from ..surfaces.kriged_surface import lowest_value
 from .global_stage import GlobalStage
 from .runs import Noise, Runs
-from .side_by_side import Part
-from .starts import NOISIEST, End, nothing_beside, simplex_around
+from .starts import NOISIEST, End, nothing_beside
 
-__all__ = ["Descent", "Rules"]
+__all__ = ["Descent", "Part", "Rules", "simplex_around"]
+
+R = TypeVar("R")
+Part: TypeAlias = Generator[Array, list[Evaluation], R]
+"""A part of a course, which returns something of its own."""
 
 _FAR = 5.0  # how far the runs may be from which a surrogate is made, in regions of trust
 # Ratios of actual to predicted reduction: a step below _POOR has failed; the region grows from
@@ -72,17 +77,19 @@ class Rules:
     is_abandoned: bool = True  # where it is left behind
 
 
+def simplex_around(centre: Array, step: float, random: np.random.Generator) -> Array:
+    """Return a point next to the centre on every axis, within the bounds."""
+    signs = random.choice((-1.0, 1.0), centre.size)
+    signs = np.where(centre + signs * step > 1.0, -1.0, signs)
+    signs = np.where(centre + signs * step < 0.0, 1.0, signs)
+    points: Array = np.clip(centre + np.diag(signs * step), 0.0, 1.0)
+    return points
+
+
 class Descent:
     """The best run of one start, and the region around it in which surrogates are trusted.
 
-    Parameters
-    ----------
-    random : numpy.random.Generator
-    rules : Rules
-    runs : Runs
-        The runs of all starts.
-    is_independent : bool
-        Whether the start's place owes nothing to other starts.
+    The runs are those of all starts. The start is independent if its place owes nothing to others.
     """
 
     def __init__(
@@ -119,9 +126,9 @@ class Descent:
         radius = self._rules.first_radius
         simplex = simplex_around(start, radius / 2.0, self._random)
         is_known = not self._runs.least_known(start, radius / 2.0)
-        if self._is_independent and start.size <= _FEW:
-            is_known = False
-        if self._runs.has_slopes or is_known:
+        if self._runs.has_slopes or (
+            is_known and not (self._is_independent and start.size <= _FEW)
+        ):
             yield from self._run(start[np.newaxis])
         if self._best is None:
             yield from self._run(np.vstack((start, simplex)))
@@ -131,15 +138,8 @@ class Descent:
         before = self.value if number is None else self._runs.values[number]
         self._nothing = nothing_beside(before)
         finish = yield from self._descended()
-        return End(
-            before,
-            self.value,
-            self.centre,
-            finish,
-            self._is_independent,
-            self._noise.of_value,
-            self._by_value,
-        )
+        own = (self._is_independent, self._noise.of_value, self._by_value)
+        return End(before, self.value, self.centre, finish, *own)
 
     def _descended(self) -> Part[Finish]:
         rules = self._rules

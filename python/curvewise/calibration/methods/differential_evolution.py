@@ -1,11 +1,9 @@
 """Global search by scipy's differential evolution, a generation at a time.
 
-Some settings differ from scipy's defaults because of the objective. The objective has kinks (a sum
-of absolute values, a maximum) and jumps, but scipy's polish needs gradients, so the result is not
-polished. The smallest value of a perfect model is 0. Therefore `atol`, a limit on the spread of the
+The result is not polished: scipy's polish needs gradients, but the objective has kinks and jumps.
+The smallest value of a perfect model is 0. Therefore `atol`, a limit on the spread of the
 population, ends the search when it would only keep halving a negligible value. The search also ends
-if the spread is 0, as on one level of a piecewise constant objective. Cost: `popsize` k runs in
-each generation for k parameters, in about 100 generations.
+if the spread is 0, as on one level of a piecewise constant objective.
 
 R. Storn, K. Price, "Differential evolution - a simple and efficient heuristic for global
 optimization over continuous spaces", J. Global Optimization 11 (1997) 341-359.
@@ -82,7 +80,11 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
 
     def __post_init__(self) -> None:
         if self.stall is not None:
-            _check_stall(self.stall)
+            if np.shape(self.stall) != (2,) or not (0.0 <= self.stall[0] < 1.0 <= self.stall[1]):
+                raise ValueError(
+                    f"stall is {self.stall!r}; give (improvement, generations), for example "
+                    "(0.001, 100)"
+                )
             if "callback" in self.options:
                 raise ValueError(
                     "give either stall or callback to 'de': stall is a callback itself"
@@ -96,10 +98,10 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
 
     def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
         """Return the runs of two generations, and of the search before."""
-        before = (
-            0 if self.after is None else self.after.fewest_runs(parameters, has_start=has_start)
-        )
-        return before + 2 * max(5, self.popsize * parameters)
+        own = 2 * max(5, self.popsize * parameters)
+        if self.after is None:
+            return own
+        return own + self.after.fewest_runs(parameters, has_start=has_start)
 
     def near_optimum(self) -> DifferentialEvolution:
         """Return the same after a search that begins there."""
@@ -138,39 +140,28 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
             return np.array([run.value for run in evaluate(np.atleast_2d(units.T))])
 
         result = function(values, [(0.0, 1.0)] * ledger.dimensions, **settings)
-        if stalled is not None and stalled.ended:
+        if stalled is not None and stalled.message:
             return Finish(True, stalled.message)
         return Finish(bool(result.success), str(result.message))
 
 
-def _check_stall(stall: tuple[float, int]) -> None:
-    if np.shape(stall) != (2,) or not (0.0 <= stall[0] < 1.0 and stall[1] >= 1):
-        raise ValueError(
-            f"stall is {stall!r}; give (improvement, generations), for example (0.001, 100)"
-        )
-
-
 class _Stall:
-    """Ends differential evolution if the best value has stopped improving.
-
-    scipy calls it after every generation.
-    """
+    """Ends differential evolution if the best value has stopped improving."""
 
     def __init__(self, ledger: Ledger, improvement: float, generations: int) -> None:
         self._ledger = ledger
         self._improvement, self._generations = float(improvement), int(generations)
         self._best: list[float] = []
-        self.ended = False
+        self.message = ""  # once it has
 
     def __call__(self, xk: Array, convergence: float) -> bool:
         """Return whether the search ends after this generation."""
         self._best.append(self._ledger.best.value)
         if len(self._best) > self._generations:
             before = self._best[-1 - self._generations]
-            self.ended = before - self._best[-1] <= self._improvement * abs(before)
-        return self.ended
-
-    @property
-    def message(self) -> str:
-        """The ending of the search."""
-        return f"improved by less than {self._improvement:.3g} over {self._generations} generations"
+            if before - self._best[-1] <= self._improvement * abs(before):
+                self.message = (
+                    f"improved by less than {self._improvement:.3g} over {self._generations} "
+                    "generations"
+                )
+        return bool(self.message)

@@ -8,10 +8,9 @@ that keeps moving in one direction keeps its range (panning). If it reverses, or
 middle, its range shrinks (zooming). Simulations that differ in their number of points (a solver
 with adaptive steps) are resampled by arc length for the planes.
 
-Linear surfaces average over noise and jumps that mislead gradients. Cost: an iteration takes 5
-evaluations for k <= 3 parameters, 9 up to 7, and 17 up to 15. With the default options there are at
-least 14 iterations (0.6^14 < 1e-3), more where parameters pan: 16 to 29 in what we have run. Each
-also minimises the objective on predicted curves (`surfaces.inner_search`).
+Linear surfaces average over noise and jumps that mislead gradients. With the default options there
+are at least 14 iterations (0.6^14 < 1e-3), more where parameters pan. Each also minimises the
+objective on predicted curves (`surfaces.inner_search`).
 
 N. Stander, K. J. Craig, "On the robustness of a simple domain reduction scheme for
 simulation-based optimization", Engineering Computations 19 (2002) 431-450.
@@ -102,8 +101,7 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
             if len(good) > k:
                 runs = [inner.taken(done[i])[0] for i in good]
                 places = points[good]
-                weights = np.ones(len(good))
-                planes = regression(places, np.array(runs), places.mean(axis=0), weights)
+                planes = regression(places, np.array(runs), places.mean(axis=0))
                 target = inner.lowest(planes, centre, low, high)
             last_move, move = move, np.clip(2.0 * (target - centre) / size, -1.0, 1.0)
             size = size * self._contraction(last_move, move)
@@ -137,19 +135,15 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
 
 
 def _design_rows(k: int) -> int:
-    rows = 4
-    while rows <= k:
-        rows *= 2
-    return rows
+    """Return the next power of two above k, at least 4."""
+    return max(4, 1 << k.bit_length())
 
 
 def _design(k: int, random: np.random.Generator) -> Array:
-    """Return an orthogonal design of k columns of -1 and 1, turned at random.
+    """Return an orthogonal design of k columns of -1 and 1, of a Hadamard matrix.
 
-    The columns are those of a Hadamard matrix without its column of ones. The number of rows is the
-    next power of two above k, at least 4. Every iteration draws again which column serves which
-    parameter, and its sign. Interactions between parameters therefore do not bias all planes in the
-    same direction.
+    Every iteration draws again which column serves which parameter, and its sign. Interactions
+    between parameters therefore do not bias all planes in the same direction.
     """
     rows = _design_rows(k)
     columns = required("scipy.linalg").hadamard(rows)[:, 1 + random.permutation(rows - 1)[:k]]

@@ -1,16 +1,15 @@
 """Checks at the end of a search that do not depend on the method.
 
 A method reports on its starts and surfaces. For all methods, this module reports whether a bound
-stopped the search, and whether sampling decides the discrete Fréchet distance
-(`objective.sampling`). Cost: one evaluation of the objective for the discrete Fréchet distance;
-otherwise nothing.
+stopped the search, and whether sampling decides the value (`objective.sampling`). Cost: at most one
+evaluation of the objective.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from ..objective.sampling import Sampling, sampling_of_tests
+from ..objective.sampling import sampling_advice
 from ..problem.ledger import Finish, Ledger
 
 __all__ = ["judged_end"]
@@ -19,41 +18,14 @@ __all__ = ["judged_end"]
 def judged_end(finish: Finish, ledger: Ledger, simulations: Any) -> Finish:
     """Return how a search ended, without "converged" where bounds stopped it, and with advice.
 
-    Parameters
-    ----------
-    finish : Finish
-        The ending that the method reports.
-    ledger : Ledger
-        The ledger of the search.
-    simulations : object
-        The curves of the best run; None if they are unknown.
+    The simulations are the curves of the best run; None if they are unknown.
     """
     finish = _within_bounds(finish, ledger)
-    if simulations is None or not ledger.objective.is_largest_distance:
+    advice = sampling_advice(ledger.objective, simulations)
+    if advice is None:
         return finish
-    distances = ledger.objective.predicted(simulations).terms
-    tests = sampling_of_tests(ledger.objective, distances)
-    if all(test.deciding == 0 for test in tests):
-        return finish
-    points = " and ".join(str(test.enough) for test in tests)
-    return finish._replace(
-        converged=False,
-        message=f"{finish.message}; {_of_tests(tests)}",
-        reason="the points of the test are so far apart that they decide which fit is best; "
-        f"compare by another measure, or resample the test evenly to {points} points",
-    )
-
-
-def _of_tests(tests: list[Sampling]) -> str:
-    count = sum(test.deciding for test in tests)
-    steps, verb = ("1 step", "is") if count == 1 else (f"{count} steps", "are")
-    name, them = ("test", "it") if len(tests) == 1 else ("tests", "them")
-    points = " and ".join(str(test.enough) for test in tests)
-    return (
-        f"{steps} of the {name} {verb} longer than a third of the distance, so that points decide "
-        f"which minimum is lowest: resample {them} evenly to {points} points "
-        "(curvewise.curves.resample), and let the model return as many"
-    )
+    message = f"{finish.message}; {advice.message}"
+    return finish._replace(converged=False, message=message, reason=advice.reason)
 
 
 def _within_bounds(finish: Finish, ledger: Ledger) -> Finish:

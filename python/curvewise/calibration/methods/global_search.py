@@ -1,11 +1,11 @@
 """Global search by CMA-ES, for models of milliseconds; without it by differential evolution.
 
-The covariance matrix adaptation evolution strategy draws generations of points from a normal
-distribution whose shape it learns. Narrow minima that are not aligned with the axes therefore cost
-it little. A round ends when the best values of its generations no longer change. Each further round
-doubles the population, because larger populations follow the overall shape rather than shallow
-local minima (IPOP). The search has converged when two rounds end at the same value. Cost: about
-5,000 to 20,000 runs for 8 parameters; an overhead of about 30 microseconds per run.
+The covariance matrix adaptation evolution strategy learns the shape of the distribution from which
+it draws generations of points, so narrow minima that are not aligned with the axes cost it little.
+A round ends when the best values of its generations no longer change. Each further round doubles
+the population, because larger populations follow the overall shape rather than shallow local minima
+(IPOP). The search has converged when two rounds end at the same value. Cost: an overhead of about
+30 microseconds per run.
 
 N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772; A. Auger, N. Hansen, "A
 restart CMA evolution strategy with increasing population size", Proc. IEEE CEC (2005) 1769-1776.
@@ -110,9 +110,8 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
             ends.append((yield from self._round(cma, ledger, place, number, random)))
             good = sum(end <= min(ends) + self._enough(ledger, min(ends)) for end in ends)
             if good > 1:
-                return Finish(
-                    True, f"CMA-ES: {good} of {len(ends)} rounds within {100 * self.tol:g} %"
-                )
+                rounds = f"{good} of {len(ends)} rounds within {100 * self.tol:g} %"
+                return Finish(True, f"CMA-ES: {rounds}")
         reason = f"the best of {self.rounds} rounds was found only once"
         return Finish(False, f"CMA-ES: {reason}", reason=reason)
 
@@ -147,9 +146,8 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
             strategy.tell(drawn, [evaluation.value for evaluation in done])
             values.append(min(evaluation.value for evaluation in done))
             last = values[-patience:]
-            if len(values) > patience and max(last) - min(last) <= _SETTLED * self._enough(
-                ledger, min(last)
-            ):
+            enough = _SETTLED * self._enough(ledger, min(last))
+            if len(values) > patience and max(last) - min(last) <= enough:
                 break
         return min(values)
 

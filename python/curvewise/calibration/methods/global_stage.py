@@ -28,9 +28,8 @@ from ..surfaces.evolution import evolved
 from ..surfaces.surfaces import Surface
 from .runs import Runs
 
-__all__ = ["NEAR", "GlobalStage"]
+__all__ = ["GlobalStage"]
 
-NEAR = 0.1  # distance of the first restart from the best run, as a fraction of the bounds' range
 _MEMBERS, _GENERATIONS = 12, 30
 _SETTLED = 5e-3  # what follows is polished by the inner search
 _WIDTH = 0.3  # the first standard deviation, in reaches
@@ -42,14 +41,7 @@ _POLISHED = 0.05  # how far the inner search may move what CMA-ES finds
 
 
 class GlobalStage:
-    """Finds places that a surrogate promises.
-
-    Parameters
-    ----------
-    runs : Runs
-        The runs of the search.
-    random : numpy.random.Generator
-    """
+    """Finds places that a surrogate through the runs of a search promises."""
 
     def __init__(self, runs: Runs, random: np.random.Generator) -> None:
         self._runs, self._random = runs, random
@@ -105,11 +97,7 @@ class GlobalStage:
         return place, float(before - after)
 
     def _principal_axes(self, surface: Surface, centre: Array, reach: float) -> Array:
-        """Return the axes scaled to equal curve movement, shape (k, k).
-
-        The longest has the length `reach`.
-
-        """
+        """Return the axes scaled to equal curve movement, shape (k, k), none above `reach`."""
         _, slopes = surface.with_slopes(centre)
         sides = self._runs.inner.sides
         scaled = slopes if sides is None else slopes / sides[:, np.newaxis]

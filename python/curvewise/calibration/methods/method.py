@@ -35,22 +35,11 @@ __all__ = [
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Method(ABC):
-    """A way to search; each class is a frozen dataclass of options, which all have defaults.
+    """A way to search; each class is a frozen dataclass of options, which all have defaults."""
 
-    Parameters
-    ----------
-    name : str
-        The name of the method in texts, such as "trust-region".
-    keeps_curves : bool
-        Whether it learns from the curves of its runs, which are kept then, and not only from their
-        values.
-    needs_squares : bool
-        Whether it takes only the measures that are sums of squares.
-    """
-
-    name: ClassVar[str]
-    keeps_curves: ClassVar[bool]
-    needs_squares: ClassVar[bool]
+    name: ClassVar[str]  # in texts, such as "trust-region"
+    keeps_curves: ClassVar[bool]  # whether it learns from the curves of its runs, not values alone
+    needs_squares: ClassVar[bool]  # whether it takes only measures that are sums of squares
 
     def __init_subclass__(cls, *, name: str, keeps_curves: bool, needs_squares: bool) -> None:
         super().__init_subclass__()
@@ -60,14 +49,8 @@ class Method(ABC):
     def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
         """Yield batches of points of the unit cube and take their evaluations; return the end.
 
-        Parameters
-        ----------
-        ledger : Ledger
-            The evaluations so far, and the objective.
-        start : ndarray, shape (k,), or None
-            Starting point, if one is given.
-        seed : int
-            Seed of all random numbers.
+        The ledger has the evaluations so far and the objective. The start, shape (k,), is a point
+        of the unit cube if one is given.
         """
 
     @abstractmethod

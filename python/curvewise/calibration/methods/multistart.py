@@ -1,115 +1,117 @@
 """Several starts of one search, until enough independent ones agree.
 
-Starts run one after the other with one worker, and three in parallel with several. The first starts
-are the middle of the bounds and points spread evenly over them. Afterwards every second start
-begins where the surrogate through the best runs is lowest (`global_stage`). Such a start takes few
-runs, but it depends on the other starts, so it does not count as agreeing with them.
+Starts run one after the other with one worker, and three in parallel with several. The first start
+is the middle of the bounds. The others are Latin hypercube samples of four points: each of four
+consecutive starts lies in a different quarter of every axis. (A low-discrepancy sequence is not
+better for a few points in many dimensions, and scipy's takes half a second to import.) After the
+first starts, every second one begins where the surrogate through the best runs is lowest
+(`global_stage`). Such a start takes few runs, but it depends on the other starts, so it does not
+count as agreeing with them.
+
+M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
+input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
 from ...curves.inputs import Array
 from ..problem.ledger import Finish, Ledger
-from .descent import Descent, Rules
+from ..records.evaluation import Evaluation
+from .descent import Descent, Part, Rules
 from .global_stage import GlobalStage
 from .runs import Runs
-from .side_by_side import Part, side_by_side
-from .starts import End, finish_of, is_enough, is_flat, places
+from .starts import End, finish_of, is_enough, is_flat
 
-__all__ = ["searched"]
+__all__ = ["Multistart", "places", "side_by_side"]
 
-_SMALLER = 0.25  # largest first radius of a start next to the best run
+R = TypeVar("R")
+
+_QUARTERS, _MARGIN = 4, 0.1  # of the bounds' range, in which no start is drawn
+_SMALLER = 0.25  # largest first radius of a start after the first
 
 
-def searched(
-    ledger: Ledger,
-    runs: Runs,
-    rules: Rules,
-    *,
-    start: Array | None,
-    seed: int,
-    starts: int,
-    most_starts: int,
-    at_once: int,
-) -> Part[Finish]:
-    """Search from one start or from several; return the joint ending.
-
-    Parameters
-    ----------
-    ledger, runs, rules
-        The data of the search.
-    start : ndarray, shape (k,), or None
-        The only one, where it is given.
-    seed : int
-        Seed of all random numbers.
-    starts, most_starts : int
-        The number of starts that must agree, and the maximum number. After a single start, the
-        search ends.
-    at_once : int
-        Number of starts that run in parallel.
-
-    Raises
-    ------
-    RuntimeError
-        If all simulations around the starts fail.
-    """
-    multistart = _Multistart(ledger, runs, rules, seed, (starts, most_starts, at_once))
-    first = multistart.first(start)
-    more: Callable[[], Sequence[Part[None]]] = multistart.more
-    if start is not None or starts == 1:
-        more = list
-    yield from side_by_side(first, more, ledger.expect)
-    if not multistart.ends:
-        raise RuntimeError(
-            "simulations fail all around the start; give identify another start=, or closer bounds"
+def places(k: int, random: np.random.Generator) -> Iterator[Array]:
+    """Yield where to start, one after the other: the middle, then evenly over the box."""
+    yield np.full(k, 0.5)
+    while True:
+        quarters = random.permuted(np.tile(np.arange(_QUARTERS), (k, 1)), axis=1).T
+        yield from (
+            _MARGIN + (1.0 - 2.0 * _MARGIN) * (quarters + random.random((_QUARTERS, k))) / _QUARTERS
         )
-    return finish_of(multistart.ends, runs.inner.negligible, starts if start is None else 1)
 
 
-class _Multistart:
-    """Begins starts, and more of them where too few agree."""
+class Multistart:
+    """Begins starts, and more of them where too few agree.
+
+    `starts` is the number of starts that must agree, `most` the maximum number, and `at_once` the
+    number of those that run in parallel.
+    """
 
     def __init__(
-        self, ledger: Ledger, runs: Runs, rules: Rules, seed: int, counts: tuple[int, int, int]
+        self,
+        ledger: Ledger,
+        runs: Runs,
+        rules: Rules,
+        *,
+        seed: int,
+        starts: int,
+        most: int,
+        at_once: int,
     ) -> None:
         self._ledger, self._runs, self._rules, self._seed = ledger, runs, rules, seed
-        self._starts, self._most, self._at_once = counts
+        self._starts, self._most, self._at_once = starts, most, at_once
         random = np.random.default_rng(seed)
         self._places = places(ledger.dimensions, random)
         self._stage = GlobalStage(runs, random)
         self._begun = self._running = 0
-        self.ends: list[End] = []
+        self._ends: list[End] = []
 
-    def first(self, start: Array | None) -> list[Part[None]]:
-        """Return the starts with which a search begins."""
+    def course(self, start: Array | None) -> Part[Finish]:
+        """Search from a given start alone, or from several; return the joint ending.
+
+        Raises
+        ------
+        RuntimeError
+            If all simulations around the starts fail.
+        """
         if start is not None:
-            return [self._descent(start, replace(self._rules, is_abandoned=False))]
-        return [self._next() for _ in range(min(self._at_once, self._starts))]
+            first = [self._descent(start, replace(self._rules, is_abandoned=False))]
+        else:
+            first = [self._next() for _ in range(min(self._at_once, self._starts))]
+        is_alone = start is not None or self._starts == 1
+        yield from side_by_side(first, list if is_alone else self._more, self._ledger.expect)
+        if not self._ends:
+            raise RuntimeError(
+                "simulations fail all around the start; give identify another start=, or closer "
+                "bounds"
+            )
+        starts = self._starts if start is None else 1
+        return finish_of(self._ends, self._runs.inner.negligible, starts)
 
-    def more(self) -> list[Part[None]]:
-        """Return those to begin after some have ended."""
+    def _more(self) -> list[Part[None]]:
+        """Return the starts to begin after some have ended."""
         negligible = self._runs.inner.negligible
-        enough = bool(self.ends) and is_enough(self.ends, negligible, self._starts)
-        if enough and not is_flat(self.ends, negligible):
+        enough = bool(self._ends) and is_enough(self._ends, negligible, self._starts)
+        if enough and not is_flat(self._ends, negligible):
             return []
         count = min(self._at_once - self._running, self._most - self._begun)
         return [self._next() for _ in range(count)]
 
     def _next(self) -> Part[None]:
         """Begin the next start: every second of the later ones where the surrogate promises."""
-        if self._begun >= self._starts and (self._begun - self._starts) % 2 and self._runs.values:
-            found = self._stage.wide()
-            if found is not None:
-                rules = replace(self._rules, first_radius=min(_SMALLER, self._rules.first_radius))
-                return self._descent(found[0], rules, is_independent=False)
         rules = self._rules
         if self._begun:
             rules = replace(rules, first_radius=min(_SMALLER, rules.first_radius))
+        if self._begun >= self._starts and (self._begun - self._starts) % 2 and self._runs.values:
+            found = self._stage.wide()
+            if found is not None:
+                return self._descent(found[0], rules, is_independent=False)
         return self._descent(next(self._places), rules)
 
     def _descent(self, place: Array, rules: Rules, *, is_independent: bool = True) -> Part[None]:
@@ -123,4 +125,50 @@ class _Multistart:
         end = yield from course
         self._running -= 1
         if end is not None:
-            self.ends.append(end)
+            self._ends.append(end)
+
+
+def side_by_side(
+    first: Sequence[Part[R]],
+    more: Callable[[], Sequence[Part[R]]],
+    expect: Callable[[Array], object],
+) -> Part[list[R]]:
+    """Drive courses in turns, each to its end; return their results in order.
+
+    The courses take turns in rounds, in a fixed order. After a round in which a course has ended,
+    `more` returns the courses to begin. The points that a course requests are announced to `expect`
+    at once, so that they can run during the turns of the other courses. The result depends on the
+    order of turns alone, not on the number of parallel runs. The first points of all courses are
+    one batch, because a search ends if all of its first batch fails.
+    """
+    courses: list[Part[R]] = []
+    ended: dict[int, R] = {}
+    asked: dict[int, Array] = {}
+
+    def go_on(i: int, answer: list[Evaluation] | None) -> None:
+        try:
+            asked[i] = next(courses[i]) if answer is None else courses[i].send(answer)
+        except StopIteration as end:
+            asked.pop(i, None)
+            ended[i] = end.value
+        else:
+            expect(asked[i])
+
+    def begin(new: Sequence[Part[R]]) -> None:
+        while new:
+            before = len(ended)
+            courses.extend(new)
+            for i in range(len(courses) - len(new), len(courses)):
+                go_on(i, None)
+            new = more() if len(ended) > before else ()
+
+    begin(first)
+    if asked:
+        yield np.vstack(list(asked.values()))
+    while asked:
+        before = len(ended)
+        for i, units in list(asked.items()):
+            go_on(i, (yield units))
+        if len(ended) > before:
+            begin(more())
+    return [ended[i] for i in range(len(courses))]

@@ -29,50 +29,24 @@ _NOISY = 1e-3  # of the bounding box: smaller noise counts as 0
 
 
 class Noise(NamedTuple):
-    """The model's own noise, one standard deviation.
+    """The model's own noise, one standard deviation; 0 if the runs show no noise."""
 
-    Attributes
-    ----------
-    of_curves : float
-        The noise of a coordinate, in side lengths of the test's bounding box; 0 if the runs show no
-        noise.
-    of_value : float
-        The noise of the minimised value.
-    """
-
-    of_curves: float
-    of_value: float
+    of_curves: float  # of a coordinate, in side lengths of the test's bounding box
+    of_value: float  # of the minimised value
 
 
 class Runs:
-    """Runs that have succeeded: their points, vectors and values.
+    """Runs that have succeeded, those of earlier searches first: points, vectors and values.
 
-    Parameters
-    ----------
-    ledger : Ledger
-        Its earlier runs are the first.
-    inner : InnerSearch
-        The inner search, which defines the vectors and the minimised value.
-
-    Attributes
-    ----------
-    points : ndarray, shape (n, k)
-        In the unit cube.
-    values : list of float
-        The minimised values.
-    has_slopes : bool
-        Whether the model has a Jacobian.
-    is_misled : bool
-        Whether a start has continued with the surrogate of the value alone.
-    exhausted : list of ndarray, shape (k,)
-        Places where the global stage has found nothing.
+    The inner search defines the vectors and the minimised value.
     """
 
     def __init__(self, ledger: Ledger, inner: InnerSearch) -> None:
         self._ledger, self.inner = ledger, inner
-        self.has_slopes = ledger.has_slopes
+        self.has_slopes = ledger.has_slopes  # whether the model has a Jacobian
+        # Whether a start has continued with the surrogate of the value alone.
         self.is_misled = False
-        self.exhausted: list[Array] = []
+        self.exhausted: list[Array] = []  # places where the global stage has found nothing
         self._rows: dict[tuple[float, ...], int] = {}
         self.points = np.empty((0, ledger.dimensions))
         self.values: list[float] = []
@@ -120,9 +94,9 @@ class Runs:
         return any(np.abs(point - place).max() <= _BESIDE for place in self.exhausted)
 
     def least_known(self, centre: Array, reach: float) -> list[Array]:
-        """Return the directions in which the runs around a point are spread too little, if any.
+        """Return the directions, if any, in which the runs around a point are spread too little.
 
-        As unit vectors, that in which they are spread least first.
+        They are unit vectors; the runs are spread least in the first.
         """
         offsets = (self.points - centre) / reach
         offsets = offsets[np.abs(offsets).max(axis=1) <= _AROUND]
@@ -130,18 +104,14 @@ class Runs:
         return list(directions.T[spread < _SPREAD])
 
     def surrogate(self, number: int, within: float) -> Surface:
-        """Return the plane of a run's derivatives, or the surface through the runs around it.
-
-        The surface interpolates the 2 k + 1 nearest runs, and further ones within the given
-        distance.
-        """
+        """Return the plane of a run's derivatives, or the surface through the runs around it."""
         slopes = self._slopes_of(number)
         if slopes is not None:
             return Surfaces(self.points[number], self._vectors[number], slopes)
         return self.surface(number, within)
 
     def surface(self, number: int, within: float) -> KrigedSurface:
-        """Return the surface through the runs around one."""
+        """Return the surface through the 2 k + 1 nearest runs, and those within a distance."""
         distances = np.abs(self.points - self.points[number]).max(axis=1)
         k = self._ledger.dimensions
         near = np.argsort(distances, kind="stable")[: max(_NEAREST, 3 * k + 3)]

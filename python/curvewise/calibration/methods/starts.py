@@ -1,18 +1,9 @@
-"""Starting points of a multistart search, and its verdict.
-
-The first start is the middle of the bounds. The others are Latin hypercube samples of four points:
-each of four consecutive starts lies in a different quarter of every axis. (A low-discrepancy
-sequence is not better for a few points in many dimensions, and scipy's takes half a second to
-import.)
-
-M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
-input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245.
-"""
+"""The verdict on the ends of a multistart search: how many agree, and what may be said of it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -26,19 +17,13 @@ __all__ = [
     "WITHIN",
     "End",
     "are_alike",
-    "check_regions",
     "finish_of",
-    "has_arrived",
     "is_enough",
     "is_flat",
     "nothing_beside",
-    "places",
-    "simplex_around",
     "starts_that_agree",
 ]
 
-_QUARTERS = 4
-_DRAWN = (0.1, 0.9)  # where starts are, between the bounds
 _FEWEST = 3  # starts that have to agree
 WITHIN = 0.01  # ends within this fraction above the best value agree
 NOISIEST = 0.05  # and by this one where the model's own noise moves values so far
@@ -46,31 +31,15 @@ NOISIEST = 0.05  # and by this one where the model's own noise moves values so f
 # total reduction. Fits to curves of the model itself need this.
 _PERFECT = 1e3
 _SAME_PLACE = 0.01  # of the bounds' range
-_MAYBE = "the start is a minimum already, or "
 _TRY = 'is flat or stepped here; try another method ("global"), measure or start '
-_UNFINISHED = (
-    "the best start ended before its steps had become small; give closer bounds, or another seed"
-)
 
 
 class End(NamedTuple):
-    """The end of one start.
+    """The end of one start: its first and last value, and the point of the last.
 
-    Attributes
-    ----------
-    first, value : float
-        The first and the last value.
-    place : ndarray, shape (k,)
-        The point at the end.
-    finish : Finish
-        Convergence and message of the start.
-    is_independent : bool
-        Whether its starting point does not depend on other starts.
-    noise : float
-        Effect of the model's own noise on the value, one standard deviation.
-    is_misled : bool
-        Whether it continued with the surrogate of the value, because the surrogate of the curves
-        misled it.
+    `is_independent` tells whether its starting point does not depend on other starts, `noise` the
+    effect of the model's own noise on the value (one standard deviation), and `is_misled` whether
+    it continued with the surrogate of the value, because the surrogate of the curves misled it.
     """
 
     first: float
@@ -87,27 +56,19 @@ class End(NamedTuple):
         return self.is_independent and self.finish.converged
 
 
-def places(k: int, random: np.random.Generator) -> Iterator[Array]:
-    """Yield where to start, one after the other: the middle, then evenly over the box."""
-    yield np.full(k, 0.5)
-    low, high = _DRAWN
-    while True:
-        quarters = random.permuted(np.tile(np.arange(_QUARTERS), (k, 1)), axis=1).T
-        yield from low + (high - low) * (quarters + random.random((_QUARTERS, k))) / _QUARTERS
+def starts_that_agree(starts: int | None, parameters: int) -> int:
+    """Return the number of starts that must agree."""
+    return max(_FEWEST, math.ceil(parameters / 2)) if starts is None else starts
 
 
-def simplex_around(centre: Array, step: float, random: np.random.Generator) -> Array:
-    """Return a point next to the centre on every axis, within the bounds."""
-    signs = random.choice((-1.0, 1.0), centre.size)
-    signs = np.where(centre + signs * step > 1.0, -1.0, signs)
-    signs = np.where(centre + signs * step < 0.0, 1.0, signs)
-    points: Array = np.clip(centre + np.diag(signs * step), 0.0, 1.0)
-    return points
+def nothing_beside(first: float) -> float:
+    """Return the negligible difference relative to the first value of a start."""
+    return WITHIN**2 * first
 
 
 def are_alike(ends: Sequence[End], negligible: float, among: Sequence[End]) -> int:
     """Return how many of some starts have ended as low as the best of all."""
-    best = min(ends, key=lambda end: end.value)
+    best = _best(ends)
     noise = min(2.0 * best.noise, NOISIEST * best.value)
     most = best.value + max(WITHIN * best.value, noise)
     most = max(most, _nothing(ends, negligible))
@@ -125,44 +86,10 @@ def is_enough(ends: Sequence[End], negligible: float, starts: int) -> bool:
     return _agree(ends, negligible, starts) and 2 * alike >= len(telling)
 
 
-def has_arrived(ends: Sequence[End], negligible: float, starts: int) -> bool:
-    """Return whether enough independent starts agree for the best of all that have been made.
-
-    As many as have to agree by default, or `starts` if that is less; one more where some have ended
-    higher. A lower minimum that attracts as many of n starts as the k that agree would have been
-    missed by all of them with a probability of (1 - k / n)^n < exp(-k): 2 % for k = 4, whatever n
-    is.
-    """
-    return _agree(ends, negligible, min(starts, starts_that_agree(None, ends[0].place.size)))
-
-
 def _agree(ends: Sequence[End], negligible: float, starts: int) -> bool:
-    """Return whether so many independent starts agree, or one more where some ended higher."""
     telling = [end for end in ends if end.tells]
     alike = are_alike(ends, negligible, telling)
     return alike >= starts if alike == len(telling) else alike > starts
-
-
-def starts_that_agree(starts: int | None, parameters: int) -> int:
-    """Return the number of starts that must agree."""
-    return max(_FEWEST, math.ceil(parameters / 2)) if starts is None else starts
-
-
-def check_regions(
-    first_radius: float,
-    diff_step: float,
-    starts: int | None,
-    most_starts: int,
-    at_once: int | None,
-) -> None:
-    """Check that regions are fractions and numbers of starts are positive."""
-    for name, value in (("initial_range", first_radius), ("diff_step", diff_step)):
-        if not 0.0 < value <= 1.0:
-            raise ValueError(f"{name} is {value}; give a fraction of the bounds, such as 0.02")
-    counts = (("starts", starts), ("most_starts", most_starts), ("starts_at_once", at_once))
-    for name, count in counts:
-        if count is not None and count < 1:
-            raise ValueError(f"{name} is {count}; give at least 1")
 
 
 def is_flat(ends: Sequence[End], negligible: float) -> bool:
@@ -170,7 +97,7 @@ def is_flat(ends: Sequence[End], negligible: float) -> bool:
 
     One point may decide it, and that point may not depend on the parameters.
     """
-    best = min(ends, key=lambda end: end.value)
+    best = _best(ends)
     if best.value <= _nothing(ends, negligible):
         return False
     same = [end.place for end in ends if end.value == best.value]
@@ -178,39 +105,41 @@ def is_flat(ends: Sequence[End], negligible: float) -> bool:
 
 
 def finish_of(ends: Sequence[End], negligible: float, starts: int) -> Finish:
-    """Return what may be said of starts that have ended.
+    """Return the ending of a search whose starts have ended.
 
-    Parameters
-    ----------
-    ends : sequence of End
-    negligible : float
-        Differences of the value below this do not count.
-    starts : int
-        Number of starts that must agree; 1 if a start was given.
+    Differences of the value below `negligible` do not count. The search has converged if as many
+    starts agree for the best of all as have to agree by default, or `starts` if that is less; one
+    more where some have ended higher. A lower minimum that attracts as many of n starts as the k
+    that agree would have been missed by all of them with a probability of (1 - k / n)^n < exp(-k):
+    2 % for k = 4, whatever n is.
     """
-    best = min(ends, key=lambda end: end.value)
+    best = _best(ends)
     converged, message = best.finish.converged, best.finish.message
-    telling = [end for end in ends if end.is_independent]
     agreement = _agreement(ends, negligible)
+    agree, count, _ = agreement
     if len(ends) > 1:
-        others = ""
-        if agreement.agree < agreement.starts:
-            others = f", others{_above(telling, best.value)}"
-        message = (
-            f"{agreement.agree} of {agreement.starts} starts within 1 % of the best{others}; "
-            f"{message}"
-        )
+        others = _above(ends, best.value) if agree < count else ""
+        message = f"{agree} of {count} starts within 1 % of the best{others}; {message}"
     if obstacle := _obstacle(ends, best, negligible):
         before, reason = obstacle
         return Finish(False, f"{before}({message})", agreement, reason)
-    if converged and has_arrived(ends, negligible, starts):
+    if not converged:
+        reason = (
+            "the best start ended before its steps had become small; "
+            "give closer bounds, or another seed"
+        )
+        return Finish(False, message, agreement, reason)
+    if _agree(ends, negligible, min(starts, starts_that_agree(None, best.place.size))):
         return Finish(True, message, agreement)
-    return Finish(False, message, agreement, _too_few(agreement) if converged else _UNFINISHED)
+    if count == 1:
+        return Finish(False, message, agreement)
+    only = f"only {agree} of {count} starts agree" if agree > 1 else "no two starts agree"
+    return Finish(False, message, agreement, f"{only}; give closer bounds, or another seed")
 
 
 def _agreement(ends: Sequence[End], negligible: float) -> Agreement:
     """Return how many of the independent starts agree, and within what."""
-    best = min(end.value for end in ends)
+    best = _best(ends).value
     alike = [end for end in ends if end.tells and are_alike(ends, negligible, [end])]
     starts = sum(end.is_independent for end in ends)
     if best <= _nothing(ends, negligible) or not alike:
@@ -228,7 +157,7 @@ def _obstacle(ends: Sequence[End], best: End, negligible: float) -> tuple[str, s
         )
     if best.value == best.first and best.value > _nothing(ends, negligible):
         return (
-            f"no step gained anything: {_MAYBE}the measure {_TRY}",
+            f"no step gained anything: the start is a minimum already, or the measure {_TRY}",
             "no start found a better fit than it began with; compare by another measure",
         )
     if any(end.is_misled for end in ends):
@@ -240,18 +169,8 @@ def _obstacle(ends: Sequence[End], best: End, negligible: float) -> tuple[str, s
     return None
 
 
-def _too_few(agreement: Agreement) -> str:
-    """Say that too few starts agree."""
-    agree, starts, _ = agreement
-    if starts == 1:
-        return ""
-    only = f"only {agree} of {starts} starts agree" if agree > 1 else "no two starts agree"
-    return f"{only}; give closer bounds, or another seed"
-
-
-def nothing_beside(first: float) -> float:
-    """Return the negligible difference relative to the first value of a start."""
-    return WITHIN**2 * first
+def _best(ends: Sequence[End]) -> End:
+    return min(ends, key=lambda end: end.value)
 
 
 def _nothing(ends: Sequence[End], negligible: float) -> float:
@@ -259,8 +178,8 @@ def _nothing(ends: Sequence[End], negligible: float) -> float:
 
 
 def _above(ends: Sequence[End], best: float) -> str:
-    """Say how far above the best value the highest is."""
-    highest = max(end.value for end in ends)
+    """Say how far above the best value the highest independent end is."""
+    highest = max(end.value for end in ends if end.is_independent)
     if highest > 10.0 * best:
-        return f" at up to {highest:.3g}"
-    return f" up to {100.0 * (highest / best - 1.0):.2g} % above"
+        return f", others at up to {highest:.3g}"
+    return f", others up to {100.0 * (highest / best - 1.0):.2g} % above"

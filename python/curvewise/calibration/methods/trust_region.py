@@ -15,22 +15,86 @@ trust-regions", SIAM J. Sci. Comput. 30 (2008) 3197-3219.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ...curves.inputs import Array
 from ..problem.ledger import Course, Ledger
-from ..surfaces.inner_search import CurveSearch
+from ..surfaces.inner_search import CurveSearch, InnerSearch
 from .descent import Rules
 from .method import Method, with_other_defaults
-from .multistart import searched
+from .multistart import Multistart
 from .runs import Runs
-from .starts import check_regions, starts_that_agree
+from .starts import starts_that_agree
 
-__all__ = ["TrustRegion"]
+__all__ = ["SurrogateSearch", "TrustRegion"]
+
+_NEAR = 0.1  # first radius for a start near the optimum
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=False):
+class SurrogateSearch(Method, name="", keeps_curves=True, needs_squares=False):
+    """A multistart trust-region search on kriging surrogates; each class has its inner search."""
+
+    first_range: ClassVar[float]  # the default of initial_range
+
+    starts: int | None = None
+    most_starts: int = 30
+    starts_at_once: int | None = None
+    initial_range: float | None = None
+    diff_step: float = 0.02
+    tol: float = 1e-3
+    gain: float = 1e-3
+    maxiter: int = 200
+
+    def __post_init__(self) -> None:
+        for name, value in (("initial_range", self._radius), ("diff_step", self.diff_step)):
+            if not 0.0 < value <= 1.0:
+                raise ValueError(f"{name} is {value}; give a fraction of the bounds, such as 0.02")
+        for name in ("starts", "most_starts", "starts_at_once"):
+            count = getattr(self, name)
+            if count is not None and count < 1:
+                raise ValueError(f"{name} is {count}; give at least 1")
+
+    @property
+    def _radius(self) -> float:
+        return self.first_range if self.initial_range is None else self.initial_range
+
+    def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
+        """Return the runs of the first simplex, of one step and of the directions at the end."""
+        starts = 1 if has_start else starts_that_agree(self.starts, parameters)
+        return starts * (2 * parameters + 2)
+
+    def near_optimum(self) -> SurrogateSearch:
+        """Return the same with a small first region."""
+        return with_other_defaults(self, initial_range=_NEAR)
+
+    @abstractmethod
+    def inner(self, ledger: Ledger) -> InnerSearch:
+        """Return what is minimised on the surrogates."""
+
+    def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
+        """Minimise on surrogates, from one start or from several."""
+        return self.search(ledger, Runs(ledger, self.inner(ledger)), start, seed)
+
+    def search(self, ledger: Ledger, runs: Runs, start: Array | None, seed: int) -> Course:
+        """Return the course on the surrogates of some runs."""
+        rules = Rules(self._radius, self.diff_step, self.tol, self.gain, self.maxiter)
+        multistart = Multistart(
+            ledger,
+            runs,
+            rules,
+            seed=seed,
+            starts=starts_that_agree(self.starts, ledger.dimensions),
+            most=self.most_starts,
+            at_once=self.starts_at_once or ledger.starts_at_once,
+        )
+        return multistart.course(start)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class TrustRegion(SurrogateSearch, name="trust-region", keeps_curves=True, needs_squares=False):
     """Multistart trust-region search on a kriging surrogate of the curves.
 
     For expensive models and any measure. A start takes 10 to 20 runs for 3 parameters and 20 to 40
@@ -81,54 +145,12 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
     TrustRegion(starts=5)
     """
 
-    starts: int | None = None
-    most_starts: int = 30
-    starts_at_once: int | None = None
-    initial_range: float | None = None
-    diff_step: float = 0.02
-    tol: float = 1e-3
-    gain: float = 1e-3
-    maxiter: int = 200
-
-    def __post_init__(self) -> None:
-        check_regions(
-            self.first_radius, self.diff_step, self.starts, self.most_starts, self.starts_at_once
-        )
-
-    @property
-    def first_radius(self) -> float:
-        """Half the size of the first region."""
-        return 0.5 if self.initial_range is None else self.initial_range
-
-    @property
-    def rules(self) -> Rules:
-        """Settings of each start."""
-        return Rules(self.first_radius, self.diff_step, self.tol, self.gain, self.maxiter)
-
-    def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
-        """Return the runs of the first simplex, of one step and of the directions at the end."""
-        return (1 if has_start else starts_that_agree(self.starts, parameters)) * (
-            2 * parameters + 2
-        )
-
-    def near_optimum(self) -> TrustRegion:
-        """Return the same with a small first region."""
-        return with_other_defaults(self, initial_range=0.1)
+    first_range: ClassVar[float] = 0.5
 
     def closer(self) -> TrustRegion:
         """Return the same for less, in a wider region, to leave a local minimum."""
         return with_other_defaults(self, initial_range=0.3, gain=2e-5, tol=1e-4)
 
-    def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
-        """Minimise on surrogates of the curves, from several starts."""
-        inner = CurveSearch(ledger.objective, self.gain, ledger.show_activity)
-        return searched(
-            ledger,
-            Runs(ledger, inner),
-            self.rules,
-            start=start,
-            seed=seed,
-            starts=starts_that_agree(self.starts, ledger.dimensions),
-            most_starts=self.most_starts,
-            at_once=self.starts_at_once or ledger.starts_at_once,
-        )
+    def inner(self, ledger: Ledger) -> CurveSearch:
+        """Return the measure of curves."""
+        return CurveSearch(ledger.objective, self.gain, ledger.show_activity)

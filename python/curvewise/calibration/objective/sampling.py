@@ -13,7 +13,7 @@ discrete distance exceeds the continuous one by at most the longest step of the 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ from ...curves.scaling import box
 from .noisy_tests import estimated_noise
 from .objective import Objective
 
-__all__ = ["Sampling", "sampling_of_tests"]
+__all__ = ["Advice", "Sampling", "sampling_advice", "sampling_of_tests"]
 
 _SHORTEST, _LONGEST = 1.0 / 3.0, 4.0  # of steps that decide, in distances
 _OF_NOISE = 4.0  # standard deviations: the largest of about a hundred points
@@ -44,6 +44,33 @@ class Sampling(NamedTuple):
 
     deciding: int
     enough: int
+
+
+class Advice(NamedTuple):
+    """What may be said where sampling decides the value: of the search, and to its user."""
+
+    message: str
+    reason: str
+
+
+def sampling_advice(objective: Objective, simulations: Any) -> Advice | None:
+    """Return what to do where sampling decides the value of simulations, or None."""
+    if simulations is None or not objective.is_largest_distance:
+        return None
+    tests = sampling_of_tests(objective, objective.predicted(simulations).terms)
+    count = sum(test.deciding for test in tests)
+    if count == 0:
+        return None
+    steps, verb = ("1 step", "is") if count == 1 else (f"{count} steps", "are")
+    name, them = ("test", "it") if len(tests) == 1 else ("tests", "them")
+    points = " and ".join(str(test.enough) for test in tests)
+    return Advice(
+        f"{steps} of the {name} {verb} longer than a third of the distance, so that points decide "
+        f"which minimum is lowest: resample {them} evenly to {points} points "
+        "(curvewise.curves.resample), and let the model return as many",
+        "the points of the test are so far apart that they decide which fit is best; "
+        f"compare by another measure, or resample the test evenly to {points} points",
+    )
 
 
 def sampling_of_tests(objective: Objective, distances: Array) -> list[Sampling]:

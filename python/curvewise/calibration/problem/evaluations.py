@@ -16,9 +16,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...curves.inputs import Array
-from ..records.evaluation import Evaluation, Point
+from ..records.evaluation import Evaluation, Point, Run
 from ..records.recorder import Recorder
-from ..surfaces.nearby_runs import Run
 from .ledger import STARTS_AT_ONCE, Course, Finish, Ledger, SearchEndedError
 from .problem import Problem
 from .simulator import Simulator

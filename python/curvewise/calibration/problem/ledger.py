@@ -19,9 +19,8 @@ from ...curves.inputs import Array
 from ...curves.several_curves import as_points, curve_list
 from ..models.pool import Outcome
 from ..objective.first_run import warn_of_first_run
-from ..records.evaluation import Evaluation, Point, is_outside
+from ..records.evaluation import Evaluation, Point, Run, is_outside
 from ..records.search_record import Agreement
-from ..surfaces.nearby_runs import Run
 from .problem import Problem
 
 __all__ = ["STARTS_AT_ONCE", "Course", "Finish", "Ledger", "SearchEndedError"]

@@ -10,7 +10,7 @@ import numpy as np
 from ..._bounds import OutsideModelError
 from ...curves.inputs import Array
 
-__all__ = ["Evaluation", "Point", "as_records", "is_outside"]
+__all__ = ["Evaluation", "Point", "Run", "as_records", "is_outside"]
 
 _OUTSIDE = f"{OutsideModelError.__name__}: "
 
@@ -34,6 +34,10 @@ class Evaluation:
     def outside(self) -> bool:
         """Whether the parameters are outside of the model's own bounds; `failed` is then true."""
         return is_outside(self.message)
+
+
+Run: TypeAlias = tuple[Array, Evaluation]
+"""A run with its place in the unit cube."""
 
 
 def is_outside(message: str) -> bool:

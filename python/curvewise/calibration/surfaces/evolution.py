@@ -1,12 +1,11 @@
 """CMA-ES: minimum of a cheap function near a point of the unit cube.
 
 Generations of points are drawn from a normal distribution. Its mean moves to the better half of
-them. Its covariance learns the directions of these better points. Its width grows while successive
-steps point the same way, and shrinks when they reverse. Small generations converge quickly to one
-local minimum, which need not be the one at the start. The method needs no gradient and tolerates
-kinks and steps. The function must cost very little; `methods.global_search` searches models by the
-package cma, which is not needed here. Cost: members times generations evaluations, and O(k^3) for
-each generation, about 0.1 ms for k = 8.
+them, its covariance learns their directions, and its width follows the length of successive steps.
+The method needs no gradient and tolerates kinks and steps. Small generations converge quickly to
+one local minimum, which need not be the one at the start. The function must cost very little;
+`methods.global_search` searches models by the package cma, which is not needed here. Cost: members
+times generations evaluations, and about 0.1 ms for each generation.
 
 N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772.
 """
@@ -35,19 +34,9 @@ def evolved(
 ) -> Array:
     """Return the lowest of all points that are drawn, shape (k,).
 
-    Parameters
-    ----------
-    function : callable
-        Takes points of the unit cube, shape (members, k), and returns their values.
-    start : ndarray, shape (k,)
-        The first mean.
-    width : float
-        The first standard deviation along every axis.
-    random : numpy.random.Generator
-    members, generations : int
-        Points of a generation, and the most generations.
-    settled : float
-        The width of the cloud, as a fraction of the cube, at which it has settled.
+    `function` takes points of the unit cube, shape (members, k), and returns their values. `start`
+    and `width` are the first mean, and the first standard deviation along every axis. The search
+    ends after so many generations, or if the width of the cloud is below `settled`.
     """
     k = start.size
     weights = np.log(members / 2 + 0.5) - np.log(np.arange(1.0, members // 2 + 1.0))

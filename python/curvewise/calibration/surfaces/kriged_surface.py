@@ -10,6 +10,10 @@ the surface near the centre only slightly.
 The nugget is the variance of the model's own noise, as a fraction of the kernel's. Restricted
 maximum likelihood (REML) estimates it from the runs. Of a smooth model it is the smallest.
 
+The value itself can be kriged, too (`lowest_value`). This is used if the surrogate of the curves is
+misleading. Curves whose phase depends strongly on the parameters have no useful surrogate by point
+number: beyond half a period its prediction is wrong. The value varies more smoothly.
+
 Cost: O(n^3 + n^2 m) for n runs of m coordinates, and O(n m) for a point.
 
 J. Sacks, W. J. Welch, T. J. Mitchell, H. P. Wynn, "Design and analysis of computer experiments",
@@ -28,9 +32,10 @@ import numpy as np
 
 from ...curves.inputs import Array
 from ...curves.thinning import Rows
+from .quasi_newton import nonsmooth_descent
 from .surfaces import ChainRule
 
-__all__ = ["KrigedSurface"]
+__all__ = ["KrigedSurface", "lowest_value"]
 
 _ROOT = math.sqrt(5.0)
 _LENGTH = 4.0  # of the kernel, in distances of the farthest run from the centre
@@ -40,27 +45,18 @@ _FEWEST = 4  # degrees of freedom required to estimate noise
 _EVIDENCE = 2.0  # and the gain in likelihood, its logarithm by coordinate
 _UNIT = 0.2  # of a side of the box, from which on coordinates count by their logarithm
 _LARGEST = 100.0  # a transformed coordinate whose hyperbolic sine is still finite
+_PLACES, _MOST = 3, 50  # random places where the minimum of a value is sought, evaluations of each
 
 
 class KrigedSurface:
     """Curves, or residuals, as a function of a point of the unit cube, through runs.
 
-    Parameters
-    ----------
-    points : ndarray, shape (n, k)
-        The points of the runs.
-    vectors : ndarray, shape (n, m)
-    centre : ndarray, shape (k,)
-        The point of one of the runs. Without noise, the surface interpolates this run.
-    sides : ndarray, shape (m,), optional
-        The side of the bounding box along each coordinate. None for coordinates without
-        transformation.
+    The runs have points, shape (n, k), and vectors, shape (n, m). The centre is the point of one of
+    them, which the surface interpolates if there is no noise. `sides`, shape (m,), has the side of
+    the bounding box along each coordinate; without it, coordinates are not transformed.
 
-    Attributes
-    ----------
-    noise : float
-        The standard deviation of the model's noise, in sides of the bounding box, or in the units
-        of the coordinates if `sides` is None. 0 if the runs show no noise.
+    `noise` is the standard deviation of the model's noise, in sides of the bounding box, or in the
+    units of the coordinates; 0 if the runs show no noise.
     """
 
     def __init__(
@@ -108,30 +104,20 @@ class KrigedSurface:
 
     def with_slopes(self, point: Array) -> tuple[Array, Array]:
         """Return the coordinates at a point, and their slopes, shape (m, k)."""
-        place = (point - self._centre) / self._extent
-        away = place - self._places
-        kernel, by_distance = _kernel(_lengths(away))
-        vector = self._transformed(place, kernel)
+        vector, rates, by_distance, away = self._bent(point)
         slopes = self._trend[1:] + (by_distance[:, np.newaxis] * away).T @ self._weights
-        rates = self._rates(vector)
-        return self._restored(vector), (
-            slopes if rates is None else slopes * rates
-        ).T / self._extent
+        return vector, (slopes if rates is None else slopes * rates).T / self._extent
 
     def with_chain_rule(self, point: Array) -> tuple[Array, ChainRule]:
         """Return the coordinates at a point, and what turns a gradient by them into one by it."""
-        place = (point - self._centre) / self._extent
-        away = place - self._places
-        kernel, by_distance = _kernel(_lengths(away))
-        vector = self._transformed(place, kernel)
-        rates = self._rates(vector)
+        vector, rates, by_distance, away = self._bent(point)
 
         def chain_rule(gradient: Array) -> Array:
             by_vector = gradient if rates is None else gradient * rates
             bent: Array = (by_distance * (self._weights @ by_vector)) @ away
             return (self._trend[1:] @ by_vector + bent) / self._extent
 
-        return self._restored(vector), chain_rule
+        return vector, chain_rule
 
     def of_places(self, places: Rows | None) -> KrigedSurface:
         """Return the surface of some of the coordinates; all if `places` is None."""
@@ -153,19 +139,21 @@ class KrigedSurface:
         restored: Array = self._base + self._unit * np.sinh(vector)
         return restored
 
-    def _rates(self, vector: Array) -> Array | None:
-        """Return the derivatives of the coordinates by the transformed ones."""
-        return None if self._unit is None else self._unit * np.cosh(vector)
+    def _bent(self, point: Array) -> tuple[Array, Array | None, Array, Array]:
+        """Return the coordinates, their slopes by the transformed ones, and the kernel's slopes.
+
+        The last two are its derivative divided by the distances, and the vectors from the runs.
+        """
+        place = (point - self._centre) / self._extent
+        away = place - self._places
+        kernel, by_distance = _kernel(_lengths(away))
+        vector = self._transformed(place, kernel)
+        rates = None if self._unit is None else self._unit * np.cosh(vector)
+        return self._restored(vector), rates, by_distance, away
 
 
 class _Contrasts:
-    """Coordinates without their trend, and their restricted likelihood.
-
-    Parameters
-    ----------
-    kernel : ndarray, shape (n, n)
-    trend : ndarray, shape (n, columns)
-    """
+    """Coordinates without their trend, and their restricted likelihood."""
 
     def __init__(self, kernel: Array, trend: Array) -> None:
         count, columns = trend.shape
@@ -214,3 +202,31 @@ def _kernel(distance: Array) -> tuple[Array, Array]:
     decay = np.exp(-scaled)
     linear = 1.0 + scaled
     return (linear + scaled * scaled / 3.0) * decay, -5.0 / (3.0 * _LENGTH**2) * linear * decay
+
+
+def lowest_value(
+    points: Array,
+    values: Array,
+    centre: Array,
+    low: Array,
+    high: Array,
+    random: np.random.Generator,
+) -> tuple[Array, float]:
+    """Return the minimiser in a box of a surface through values, and its gain over the centre.
+
+    The centre is one of the points. Cost: about 100 evaluations of the surface.
+    """
+    least = np.finfo(float).tiny
+    surface = KrigedSurface(points, np.log(np.maximum(values, least))[:, np.newaxis], centre)
+    width = np.where(high > low, high - low, 1.0)
+
+    def function(place: Array) -> tuple[float, Array]:
+        value, slopes = surface.with_slopes(low + place * width)
+        return float(value[0]), slopes[0] * width
+
+    starts = [(centre - low) / width, *random.random((_PLACES, centre.size))]
+    found = [nonsmooth_descent(function, start, negligible=0.0, most=_MOST) for start in starts]
+    points_found = np.clip(low + np.array(found) * width, low, high)
+    predicted = np.exp(surface.at(points_found)[:, 0])
+    best = int(np.argmin(predicted))
+    return points_found[best], float(np.exp(surface.at(centre)[0]) - predicted[best])

@@ -30,8 +30,7 @@ from ...curves.inputs import Array
 from ...curves.scaling import box
 from ...measures import dtw_path, frechet, frechet_path
 from ...measures.results import Alignment
-from .predicted_curves import PredictedCurves
-from .surfaces import Surface
+from .surfaces import PredictedCurves, Surface
 
 __all__ = ["minimised"]
 
@@ -48,16 +47,7 @@ _COUPLINGS: tuple[Coupling, ...] = (partial(dtw_path, metric="sqeuclidean"), fre
 def minimised(
     predicted: PredictedCurves, surface: Surface, start: Array, low: Array, high: Array, most: int
 ) -> Array:
-    """Return a local minimum in a box, from a start in it.
-
-    Parameters
-    ----------
-    predicted, surface
-        The function to minimise, and the surface of its argument.
-    start, low, high : ndarray, shape (k,)
-    most : int
-        The maximum number of evaluations, each with the cost of one with a gradient.
-    """
+    """Return a local minimum in a box, in the time of so many evaluations with a gradient."""
     width = np.where(high > low, high - low, 1.0)
     distances = _LargestDistances(predicted, surface, low, width)
     place = distances.descended((start - low) / width, max(2, most // _STEPS_OF))
@@ -114,13 +104,13 @@ class _LargestDistances:
 
     def _step(self, place: Array, coupling: Coupling, reach: float) -> tuple[Array, float]:
         """Return the step that minimises linear distances; predicted reduction."""
-        vector, slopes = self._slopes_at(place)
+        vector, slopes = self._seen.with_slopes(self._low + place * self._width)
+        responses = self._predicted.responses
+        curves, moves = responses.curves(vector), responses.curves(slopes * self._width)
         k, count = place.size, len(self._tests)
-        rows, distances = [], []
-        value = 0.0
-        curves = self._predicted.responses.curves(vector)
-        for t, ((P, low, extent), curve) in enumerate(zip(self._tests, curves, strict=True)):
-            Q = (curve - low) / extent
+        rows, distances, value = [], [], 0.0
+        for t, (P, low, extent) in enumerate(self._tests):
+            Q = (curves[t] - low) / extent
             i, j = np.array(coupling(P, Q).path).T
             apart = Q[j] - P[i]
             lengths = np.linalg.norm(apart, axis=1)
@@ -128,7 +118,7 @@ class _LargestDistances:
             value += self._weights[t] * longest
             decides = lengths > _DECIDING * longest
             towards = apart[decides] / lengths[decides, np.newaxis] / extent
-            by_place = np.einsum("lc,lck->lk", towards, slopes[t][j[decides]])
+            by_place = np.einsum("lc,lck->lk", towards, moves[t][j[decides]])
             of_test = np.zeros((len(by_place), count))
             of_test[:, t] = -1.0
             rows.append(np.hstack((by_place, of_test)))
@@ -146,10 +136,3 @@ class _LargestDistances:
         if found.x is None:
             return np.zeros(k), 0.0
         return found.x[:k], value - found.fun
-
-    def _slopes_at(self, place: Array) -> tuple[Array, list[Array]]:
-        """Return the curves as one vector, and for each its slopes, shape (n, d, k)."""
-        vector, slopes = self._seen.with_slopes(self._low + place * self._width)
-        shapes = self._predicted.responses.shapes
-        parts = np.split(slopes * self._width, np.cumsum([n * d for n, d in shapes])[:-1])
-        return vector, [part.reshape(*shape, -1) for part, shape in zip(parts, shapes, strict=True)]

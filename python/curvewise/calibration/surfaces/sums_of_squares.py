@@ -1,51 +1,85 @@
-"""Sums of squares: vectors and values of runs, bounded minimisation.
+"""Sums of squares of residuals, plain or robust: values of runs, and bounded minimisation.
 
-An active-set method solves a bounded linear least-squares problem in a few unknowns. A coordinate
-that meets its bound is fixed there, and released when the gradient points inwards. The function
+Gauss-Newton steps minimise nonlinear residuals, within a region in which their linearisation is
+accurate. An active-set method solves the bounded linear problem of each step: a coordinate that
+meets its bound is fixed there, and released when the gradient points inwards. The function
 `lsq_linear` of scipy takes twenty times as long, mostly for bookkeeping, and a search solves
-hundreds of such problems. Gauss-Newton steps minimise nonlinear residuals, within a region in which
-their linearisation is accurate. Cost: O(m k^2 + k^3) for each step, with m residuals of k unknowns.
+hundreds of such problems. Cost: O(m k^2 + k^3) for each step, with m residuals of k unknowns.
 
-A. Björck, "Numerical methods for least squares problems", SIAM (1996), sections 5.2.3 and 9.2.
+A robust sum, f^2 times the sum of rho((r / f)^2), is a sum of squares of transformed residuals, f
+sign(r) sqrt(rho((r / f)^2)). The names and the functions rho are those of
+scipy.optimize.least_squares.
+
+A. Björck, "Numerical methods for least squares problems", SIAM (1996), sections 5.2.3 and 9.2. B.
+Triggs, P. F. McLauchlan, R. I. Hartley, A. W. Fitzgibbon, "Bundle adjustment - a modern synthesis",
+Lecture Notes in Computer Science 1883 (2000) 298-372, section 4.3.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import ClassVar, TypeAlias
+from typing import ClassVar, Literal, TypeAlias, get_args
 
 import numpy as np
 
 from ...curves.inputs import Array
 from ..objective.objective import Objective
 from ..records.evaluation import Evaluation
-from .robust_losses import Bend
 from .surfaces import Surface
 
-__all__ = ["ResidualsAndSlopes", "SumOfSquares", "linear_minimum", "squares_minimum"]
+__all__ = ["Loss", "SumOfSquares", "bend_of", "check_loss", "linear_minimum", "squares_minimum"]
 
+Loss: TypeAlias = Literal["linear", "soft_l1", "huber", "cauchy", "arctan"]
+Bend: TypeAlias = Callable[[Array], tuple[Array, Array]]
+"""Residuals to those whose squares are added up, and the derivatives of these by those."""
 ResidualsAndSlopes: TypeAlias = Callable[[Array], tuple[Array, Array]]
 """Residuals at a point, shape (m,), and their derivatives, shape (m, k)."""
 
-_TINY = np.finfo(float).tiny
 _ROUNDING = 1e-12  # of the gradient at the start, and of the mean of the diagonal
 _STEPS = 12  # of Gauss and Newton
-_POOR, _GOOD = 0.1, 0.7  # of what linear residuals promise: cut back below, go further above
+# Ratios of actual to predicted reduction below which a step is cut back, and above which the region
+# grows; factor of a step cut back.
+_POOR, _GOOD, _BACK = 0.1, 0.7, 0.4
 _SMALL = 1e-4  # gains smaller than this fraction of the sum, and smaller steps, end it
 # Fraction of the usual negligible value: near a perfect fit squares are smaller than distances.
 _OF_SQUARES = 1e-3
 
+# rho(z) and its derivative.
+_RHO: dict[str, Callable[[Array], tuple[Array, Array]]] = {
+    "soft_l1": lambda z: (2.0 * z / (1.0 + np.sqrt(1.0 + z)), 1.0 / np.sqrt(1.0 + z)),
+    "huber": lambda z: (
+        np.where(z <= 1.0, z, 2.0 * np.sqrt(np.maximum(z, 1.0)) - 1.0),
+        1.0 / np.sqrt(np.maximum(z, 1.0)),
+    ),
+    "cauchy": lambda z: (np.log1p(z), 1.0 / (1.0 + z)),
+    "arctan": lambda z: (np.arctan(z), 1.0 / (1.0 + z**2)),
+}
+
+
+def bend_of(loss: Loss, scale: float) -> Bend | None:
+    """Return the transformation of residuals above a scale; None for "linear", the identity."""
+    if loss == "linear":
+        return None
+
+    def bend(residuals: Array) -> tuple[Array, Array]:
+        scaled = residuals / scale
+        value, derivative = _RHO[loss](scaled**2)
+        bent = np.sqrt(value)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slopes = np.where(bent > 0.0, derivative * np.abs(scaled) / bent, 1.0)
+        return scale * np.sign(scaled) * bent, slopes
+
+    return bend
+
+
+def check_loss(loss: str) -> None:
+    """Refuse the name of an unknown loss."""
+    if loss not in get_args(Loss):
+        raise ValueError(f"loss is {loss!r}; choose from {', '.join(get_args(Loss))}")
+
 
 class SumOfSquares:
-    """Sums of squares of residuals, as `inner_search.InnerSearch` has it.
-
-    Parameters
-    ----------
-    objective : Objective
-        The objective of the tests.
-    bend : callable, optional
-        The transformation of a robust sum.
-    """
+    """Sums of squares of residuals, or of bent ones, as `inner_search.InnerSearch` has it."""
 
     is_smooth: ClassVar[bool] = True
     sides = None
@@ -55,7 +89,7 @@ class SumOfSquares:
 
     @property
     def negligible(self) -> float:
-        """Differences of the sum below this do not count; curve_length is the root of one."""
+        """Differences of the sum below this do not count; some measures are the root of one."""
         if not self._objective.is_least_squares:
             return self._objective.negligible**2
         return _OF_SQUARES * self._objective.negligible
@@ -66,7 +100,7 @@ class SumOfSquares:
         return residuals, float(self._sums(residuals))
 
     def slopes(self, run: Evaluation, by_curve: list[Array]) -> Array:
-        """Residuals are differentiated along the slopes of the curves, which takes no runs."""
+        """Return the derivatives of the residuals, along the slopes of the curves."""
         return self._objective.residual_slopes(run.simulations, by_curve)
 
     def values(self, surface: Surface, points: Array) -> Array:
@@ -100,86 +134,43 @@ class SumOfSquares:
 
 
 def linear_minimum(residuals: Array, slopes: Array, low: Array, high: Array) -> Array:
-    """Return the step in a box that minimises squares of linear residuals.
+    """Return the step in a box, shape (k,), that minimises squares of linear residuals.
 
-    Parameters
-    ----------
-    residuals : ndarray, shape (m,)
-        At a step of 0.
-    slopes : ndarray, shape (m, k)
-    low, high : ndarray, shape (k,)
-        The box; low <= 0 <= high.
+    `residuals`, shape (m,), are those at a step of 0, which lies in the box.
     """
     k = low.size
     gradient = slopes.T @ residuals
     curvature = slopes.T @ slopes
-    curvature.ravel()[:: k + 1] += _ROUNDING * max(curvature.trace() / k, _TINY)
+    curvature.ravel()[:: k + 1] += _ROUNDING * max(curvature.trace() / k, np.finfo(float).tiny)
     enough = _ROUNDING * float(np.abs(gradient).max())
-    box = list(zip(low.tolist(), high.tolist(), strict=True))
-    inside = [i for i in range(k) if box[i][0] < box[i][1]]
-    free, step = inside, [0.0] * k
-    downhill = -gradient
+    free, step, downhill = low < high, np.zeros(k), -gradient
+    held = np.zeros(k, dtype=bool)
     for _ in range(8 * k):
-        move = dict(zip(free, _newton(curvature, downhill, free), strict=True))
-        wall = _first_wall(step, move, box)
-        if wall is not None:
-            share, first, side = wall
-            for i, by in move.items():
-                step[i] = min(max(step[i] + share * by, box[i][0]), box[i][1])
-            step[first] = box[first][side]
-            free = [i for i in free if i != first]
-        else:
-            for i, by in move.items():
-                step[i] += by
-        downhill = -gradient - curvature @ np.array(step)
-        if wall is not None:
+        move = np.zeros(k)
+        move[free] = np.linalg.solve(curvature[free][:, free], downhill[free])
+        walls = np.where(move < 0.0, low, high) - step
+        share = np.divide(walls, move, out=np.full(k, np.inf), where=np.abs(move) > np.abs(walls))
+        first = int(np.argmin(share))
+        if share[first] < 1.0:
+            step = np.clip(step + share[first] * move, low, high)
+            step[first] = low[first] if move[first] < 0.0 else high[first]
+            free[first], held[first] = False, True
+            downhill = -gradient - curvature @ step
             continue
-        held = [i for i in inside if i not in move]
-        inwards = [downhill[i] if step[i] <= box[i][0] else -downhill[i] for i in held]
-        if not held or max(inwards) <= enough:
+        step = step + move
+        downhill = -gradient - curvature @ step
+        inwards = np.where(held, np.where(step <= low, downhill, -downhill), -np.inf)
+        released = int(np.argmax(inwards))
+        if inwards[released] <= enough:
             break
-        free = sorted([*free, held[inwards.index(max(inwards))]])
-    return np.array(step)
-
-
-def _newton(curvature: Array, downhill: Array, free: list[int]) -> list[float]:
-    """Return the step to the minimum over some coordinates."""
-    if not free:
-        return []
-    if len(free) < downhill.size:
-        curvature, downhill = curvature[free][:, free], downhill[free]
-    step: list[float] = np.linalg.solve(curvature, downhill).tolist()
+        free[released], held[released] = True, False
     return step
-
-
-def _first_wall(
-    step: list[float], move: dict[int, float], box: list[tuple[float, float]]
-) -> tuple[float, int, int] | None:
-    """Return the fraction of a move at which it first meets a bound, and which.
-
-    Plain numbers are used, because arrays are not faster for so few.
-    """
-    walls = []
-    for i, by in move.items():
-        low, high = box[i]
-        if step[i] + by < low:
-            walls.append(((low - step[i]) / by, i, 0))
-        elif step[i] + by > high:
-            walls.append(((high - step[i]) / by, i, 1))
-    return min(walls, default=None)
 
 
 def squares_minimum(
     function: ResidualsAndSlopes, start: Array, low: Array, high: Array
 ) -> tuple[Array, float]:
-    """Return where in a box the sum of squares of residuals is smallest, and that, from a point.
-
-    Parameters
-    ----------
-    function : callable
-        Residuals and slopes at a point.
-    start, low, high : ndarray, shape (k,)
-    """
+    """Return where in a box the sum of squares of residuals is smallest, and that, from a point."""
     point, reach = start, 1.0
     residuals, slopes = function(point)
     value = float(residuals @ residuals)
@@ -193,7 +184,7 @@ def squares_minimum(
         there, slopes_there = function(trial)
         gain = value - float(there @ there)
         if gain < _POOR * promised:
-            reach = 0.4 * float(np.abs(step).max())
+            reach = _BACK * float(np.abs(step).max())
             if reach < _SMALL or promised <= _SMALL * value:
                 break
             continue

@@ -19,7 +19,8 @@ from ...curves.several_curves import points_of
 from ..problem.execution import Execution
 from ..problem.problem import Problem
 from ..problem.simulator import Simulator
-from ..surfaces.nearby_runs import NearbyRuns, Run, narrowest, runs_near
+from ..records.evaluation import Evaluation, Run
+from ..surfaces.kriged_surface import KrigedSurface
 from ..surfaces.surfaces import Responses, Surfaces
 
 __all__ = ["Optimum", "design_runs", "moves_of", "optimum_surfaces", "sensitivity_of", "vectors_at"]
@@ -107,18 +108,27 @@ def optimum_surfaces(
     elif near is None:
         slopes = _differences(problem, execution, unit, responses, base)
     else:
-        slopes = near.slopes(responses)
+        # A plane misses curvature: standard errors of an exponent were half of the right ones.
+        points = near[0]
+        vectors = np.array([responses.vector(run.simulations or ()) for run in near[1]])
+        nearest = points[int(np.argmin(np.abs(points - unit).max(axis=1)))]
+        slopes = KrigedSurface(points, vectors, nearest).with_slopes(unit)[1]
     surfaces = Surfaces(unit, base, slopes)
     return Optimum(problem, unit, responses, surfaces, execution, known is not None)
 
 
-def _nearby(unit: Array, runs: Sequence[Run]) -> NearbyRuns | None:
-    """Return the runs near a place if they determine slopes there."""
-    near = runs_near(unit, runs, within=_NEAR)
-    if near is None:
+def _nearby(unit: Array, runs: Sequence[Run]) -> tuple[Array, list[Evaluation]] | None:
+    """Return the points and runs near a place if they determine slopes there."""
+    near = [(point, run) for point, run in runs if run.simulations]
+    near = [one for one in near if np.abs(one[0] - unit).max() <= _NEAR]
+    if len(near) < unit.size + 2:
         return None
-    directions = (near.points - unit) / (near.distances + _STEP)[:, np.newaxis]
-    return near if narrowest(directions) >= _LEAST else None
+    points = np.array([point for point, _ in near])
+    away = points - unit
+    directions = away / (np.abs(away).max(axis=1, keepdims=True) + _STEP)
+    if np.linalg.svd(directions, compute_uv=False)[-1] < _LEAST:
+        return None
+    return points, [run for _, run in near]
 
 
 def _differences(

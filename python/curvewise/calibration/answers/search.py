@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..._extras import required
+from ...curves.several_curves import points_of
+from ..methods.endings import judged_end
+from ..methods.method import Method
 from ..problem.details import details_of
 from ..problem.evaluations import Evaluations, Progress
 from ..problem.execution import Execution
 from ..problem.ledger import Finish, SearchEndedError
 from ..problem.problem import Problem
+from ..records.evaluation import Run, as_records
 from ..records.recorder import Recorder
-from ..surfaces.nearby_runs import Run
-from .endings import judged_end
-from .method import Method
+from .identification import Identification
 
-__all__ = ["EndedSearch", "Plan", "run_search"]
+__all__ = ["Plan", "identification_of"]
+
+_log = logging.getLogger("curvewise.calibration")
 
 
 @dataclass(frozen=True)
@@ -37,25 +42,12 @@ class Plan:
             raise ValueError(f"max_runs is {self.max_runs}; give at least 1")
 
 
-class EndedSearch(NamedTuple):
-    """Result of a search: evaluations, ending, best curves, number of runs, records."""
+def identification_of(
+    problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()
+) -> Identification:
+    """Search, or continue with what a store has, and return the result.
 
-    evaluations: Evaluations
-    finish: Finish
-    simulations: Any
-    runs: int
-    recorder: Recorder
-
-
-def run_search(problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()) -> EndedSearch:
-    """Search, or go on with what a store has.
-
-    Parameters
-    ----------
-    problem, plan
-        The problem, and the settings of the search.
-    earlier_runs : sequence of (ndarray, Evaluation)
-        The runs of earlier searches, at which some methods begin.
+    Some methods begin at the runs of earlier searches.
     """
     start = None if plan.start is None else problem.space.unit(plan.start)
     required("scipy")
@@ -81,9 +73,52 @@ def run_search(problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()) -
             except SearchEndedError as end:
                 finish = Finish(False, str(end), reason=str(end))
             evaluations.show()
-        simulations = evaluations.best_simulations()
-    finish = judged_end(finish, evaluations, simulations)
-    return EndedSearch(evaluations, finish, simulations, simulator.runs, recorder)
+    finish = judged_end(finish, evaluations, evaluations.best_simulations())
+    return _recorded(problem, plan, evaluations, finish, recorder, simulator.runs)
+
+
+def _recorded(
+    problem: Problem,
+    plan: Plan,
+    evaluations: Evaluations,
+    finish: Finish,
+    recorder: Recorder,
+    runs: int,
+) -> Identification:
+    """Return the result of an ended search, and write the ending down in the store."""
+    objective, simulations = problem.objective, evaluations.best_simulations()
+    done, best = evaluations.done, evaluations.best
+    found = Identification(
+        parameters=problem.space.dictionary(best.point),
+        value=best.value,
+        measures=objective.by_measure(simulations),
+        simulations=points_of(simulations),
+        experiments=objective.experiments,
+        history=as_records(done, problem.space.names),
+        failures=tuple((e.number, e.message) for e in done if e.failed and not e.outside),
+        converged=finish.converged,
+        message=finish.message,
+        method=str(plan.method),
+        seed=plan.seed,
+        bounds=problem.space.bounds,
+        measure=objective.measure,
+        preset=objective.preset,
+        runs=runs,
+        problem=problem,
+        execution=plan.execution,
+        runs_with_curves=evaluations.runs_with_curves,
+        part=objective.part,
+        condition=objective.condition,
+        recorder=recorder,
+        agreement=finish.agreement,
+        reason=finish.reason,
+    )
+    if found.recorder.has_store:
+        try:
+            found.recorder.end(found.ending())
+        except (OSError, ValueError) as error:  # an error here must not lose the result
+            _log.warning("how the search ended could not be written down: %s", error)
+    return found
 
 
 def _settings(problem: Problem, plan: Plan) -> dict[str, Any]:
