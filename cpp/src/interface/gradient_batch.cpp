@@ -1,9 +1,5 @@
 // Values and derivatives of many pairs: a pair at a time to each thread (see gradient.hpp).
-#include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <exception>
-#include <mutex>
 #include <stdexcept>
 #include <string>
 
@@ -40,28 +36,15 @@ void values_and_gradients(const DifferentiableMeasure& measure, const std::vecto
     };
     Poller poller(control);
     poller.begin(static_cast<std::int64_t>(P.size()));
-    std::atomic<std::size_t> next{0};
-    std::mutex mutex;
-    std::exception_ptr failure;
-    const auto work = [&](std::ptrdiff_t /*w*/, Poller& own) {
-        // Another Control watches a pair; its steps are not counted here.
-        Control pair([&](std::int64_t, std::int64_t) { return !own.poll(); },
-                     std::chrono::milliseconds(20));
-        try {
-            for (std::size_t k = next++; k < P.size(); k = next++) {
-                compute(k, control == nullptr ? nullptr : &pair);
-                if (own.count_steps(1)) throw Stopped();
-            }
-        } catch (...) {
-            const std::lock_guard<std::mutex> lock(mutex);
-            if (!failure) failure = std::current_exception();
-            next = P.size();
-        }
-    };
-    runtime::run_workers(
-        std::min(runtime::resolve_workers(workers), static_cast<std::ptrdiff_t>(P.size())), poller,
-        work);
-    if (failure) std::rethrow_exception(failure);
+    runtime::for_each(P.size(), runtime::resolve_workers(workers), poller, [&](Poller& own) {
+        return [&](std::size_t k) {
+            // Another Control watches a pair; its steps are not counted here.
+            Control pair([&](std::int64_t, std::int64_t) { return !own.poll(); },
+                         std::chrono::milliseconds(20));
+            compute(k, control == nullptr ? nullptr : &pair);
+            if (own.count_steps(1)) throw Stopped();
+        };
+    });
     poller.finish();
 }
 

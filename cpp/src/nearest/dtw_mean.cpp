@@ -4,10 +4,7 @@
 #include "curvewise/dtw_mean.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -93,24 +90,12 @@ class Averaging {
 
     void find_paths(std::size_t first, std::size_t count, Poller& poller) {
         alignments_.resize(count);
-        std::atomic<std::size_t> next{0};
-        std::mutex mutex;
-        std::exception_ptr failure;
         const CheckedCurve mean(CurveView(mean_.data(), n_, dim_), "the mean", poller);
-        run_workers(std::min(options_.workers, static_cast<std::ptrdiff_t>(count)), poller,
-                    [&](std::ptrdiff_t /*w*/, Poller& own) {
-                        try {
-                            warping::SweepMemory memory;
-                            for (std::size_t k = next++; k < count; k = next++) {
-                                alignments_[k] = path(mean, curves_[first + k], own, memory);
-                            }
-                        } catch (...) {
-                            const std::lock_guard<std::mutex> lock(mutex);
-                            if (!failure) failure = std::current_exception();
-                            next = count;
-                        }
-                    });
-        if (failure) std::rethrow_exception(failure);
+        runtime::for_each(count, options_.workers, poller, [&](Poller& own) {
+            return [&, memory = warping::SweepMemory()](std::size_t k) mutable {
+                alignments_[k] = path(mean, curves_[first + k], own, memory);
+            };
+        });
     }
 
     Alignment path(const CheckedCurve& mean, const CheckedCurve& curve, Poller& poller,

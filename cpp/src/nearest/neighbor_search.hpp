@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "curvewise/nearest.hpp"
@@ -45,7 +46,8 @@ class NeighborSearch {
                                             double radius, bool with_distances,
                                             std::ptrdiff_t left_out);
 
-    const SearchRecord& record() const noexcept { return record_; }
+    // The counts since the last call.
+    SearchRecord take_record() noexcept { return std::exchange(record_, {}); }
 
    private:
     struct Candidate {

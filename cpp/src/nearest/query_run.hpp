@@ -2,10 +2,8 @@
 // the number of threads changes nothing.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <mutex>
 #include <vector>
@@ -46,16 +44,13 @@ class QueryRun {
     std::int64_t steps(const CheckedCurve& P) const noexcept {
         return targets_.steps(P.curve.size(), seen_);
     }
-    void take_queries(Poller& poller) noexcept;
+    void answer(NeighborSearch& search, std::size_t i, Poller& poller);
 
     const Targets& targets_;
     const Seen& seen_;
     const Queries& queries_;
     const Answer& answer_;
-    std::atomic<std::size_t> next_{0};
-    std::atomic<bool> has_failed_{false};
     std::mutex mutex_;
-    std::exception_ptr failure_;
     SearchRecord record_;
 };
 

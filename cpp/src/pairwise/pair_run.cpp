@@ -1,11 +1,8 @@
 #include "pairwise/pair_run.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
-#include <exception>
 #include <limits>
-#include <mutex>
 #include <utility>
 
 #include "runtime/scratch.hpp"
@@ -27,10 +24,17 @@ class PairRun {
 
     void run(Poller& poller) {
         if (pairs_.is_swept() && workers_ > 1) run_giants(poller);
-        const auto useful = static_cast<std::ptrdiff_t>(tiles_.tiles().size());
-        runtime::run_workers(std::min(workers_, useful), poller,
-                             [this](std::ptrdiff_t /*w*/, Poller& own) { take_tiles(own); });
-        if (failure_) std::rethrow_exception(failure_);
+        runtime::for_each(tiles_.tiles().size(), workers_, poller, [this](Poller& own) {
+            return [this, &own, memory = pairs_.make_memory(),
+                    values = runtime::ScratchVector<double>()](std::size_t t) mutable {
+                const PairCall call{cutoff_, 1, own, *memory};
+                if (are_some_beside_) {
+                    take_columns_beside(tiles_.tiles()[t], call, values);
+                } else {
+                    take_one_by_one(tiles_.tiles()[t], call);
+                }
+            };
+        });
     }
 
    private:
@@ -75,26 +79,6 @@ class PairRun {
         const std::unique_ptr<ThreadMemory> memory = pairs_.make_memory();
         for (const auto& [i, j] : giants) {
             destination_.write(i, j, value(i, j, {cutoff_, workers_, poller, *memory}));
-        }
-    }
-
-    void take_tiles(Poller& poller) noexcept {
-        try {
-            const std::unique_ptr<ThreadMemory> memory = pairs_.make_memory();
-            const PairCall call{cutoff_, 1, poller, *memory};
-            const runtime::ScratchVector<Tile>& tiles = tiles_.tiles();
-            runtime::ScratchVector<double> values;
-            for (std::size_t t = next_++; t < tiles.size() && !has_failed_; t = next_++) {
-                if (are_some_beside_) {
-                    take_columns_beside(tiles[t], call, values);
-                } else {
-                    take_one_by_one(tiles[t], call);
-                }
-            }
-        } catch (...) {
-            const std::lock_guard<std::mutex> lock(mutex_);
-            if (!failure_) failure_ = std::current_exception();
-            has_failed_ = true;
         }
     }
 
@@ -154,10 +138,6 @@ class PairRun {
     double cutoff_;
     bool are_some_beside_;
     std::int64_t giant_ = no_giant;
-    std::atomic<std::size_t> next_{0};
-    std::atomic<bool> has_failed_{false};
-    std::mutex mutex_;
-    std::exception_ptr failure_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -99,6 +100,12 @@ void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work) {
     for (std::thread& thread : threads) thread.join();
     poller.set_sharing(was_sharing);
     if (!was_sharing) poller.rethrow_failure();
+}
+
+void SharedItems::fail() noexcept {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!failure_) failure_ = std::current_exception();
+    next_ = count_;
 }
 
 Pipeline::Pipeline(std::ptrdiff_t strips) : strips_(static_cast<std::size_t>(strips)) {}

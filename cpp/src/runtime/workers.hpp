@@ -3,9 +3,11 @@
 // from any number of threads.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <vector>
@@ -25,6 +27,46 @@ std::ptrdiff_t resolve_workers(std::ptrdiff_t workers);
 // all threads have ended.
 using Work = std::function<void(std::ptrdiff_t w, Poller& poller)>;
 void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work);
+
+// What the threads of for_each() share.
+class SharedItems {
+   public:
+    explicit SharedItems(std::size_t count) noexcept : count_(count) {}
+
+    // The next item, or `count`.
+    std::size_t take() noexcept { return std::min(next_++, count_); }
+    // Gives up the items that are left, for the exception that is being handled.
+    void fail() noexcept;
+    void rethrow_failure() const {
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+   private:
+    std::size_t count_;
+    std::atomic<std::size_t> next_{0};
+    std::mutex mutex_;
+    std::exception_ptr failure_;  // the first
+};
+
+// Shares 0 .. count - 1 out among up to `workers` threads, in ascending order. Each thread calls
+// begin(poller) once, and the function that this returns for one item after the other. An exception
+// ends the work of all threads, and is thrown when they have ended.
+template <class Begin>
+void for_each(std::size_t count, std::ptrdiff_t workers, Poller& poller, const Begin& begin) {
+    SharedItems items(count);
+    const auto take_items = [&](std::ptrdiff_t /*w*/, Poller& own) {
+        try {
+            auto visit = begin(own);
+            for (std::size_t i = items.take(); i < count; i = items.take()) visit(i);
+        } catch (...) {
+            items.fail();
+        }
+    };
+    // By reference: a copy of what it captures would be allocated.
+    run_workers(std::min(workers, static_cast<std::ptrdiff_t>(count)), poller,
+                std::cref(take_items));
+    items.rethrow_failure();
+}
 
 // Strips handed out from top to bottom, each following the one above it. A strip is taken only
 // after the one above it, by a thread that continues until the strip is finished, so that waiting

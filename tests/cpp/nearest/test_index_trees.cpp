@@ -268,11 +268,11 @@ void trees_change_no_count() {
             const auto found = search.nearest(*query, 0, 1 + i, i);
             const auto again = targets->query(P, poller);
             check_equal(found, linear.nearest(*again, 0, 1 + i, i));
-            CHECK(are_equal(search.record(), linear.record()));
+            CHECK(are_equal(search.take_record(), linear.take_record()));
             const double radius = found[static_cast<std::size_t>(i / 2)].distance;
             check_equal(search.within(*query, 0, radius, true, -1),
                         linear.within(*again, 0, radius, true, -1));
-            CHECK(are_equal(search.record(), linear.record()));
+            CHECK(are_equal(search.take_record(), linear.take_record()));
         }
     }
 }
@@ -306,7 +306,7 @@ void many_leaves_are_read_in_order() {
         const double radius = found.back().distance;
         check_equal(search.within(*query, 0, radius, true, 4),
                     linear.within(*query, 0, radius, true, 4));
-        CHECK(are_equal(search.record(), linear.record()));
+        CHECK(are_equal(search.take_record(), linear.take_record()));
     }
 }
 
