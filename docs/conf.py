@@ -65,6 +65,7 @@ extensions = [
     "breathe",
     "command_help",
     "figures",
+    "materials",
     "mathml",
     "myst_parser",
     "numpydoc",

@@ -59,7 +59,8 @@ int main(void) {
     show("P_and_beginning", status, pairs[1], &error);
     show("Q_and_beginning", status, pairs[2], &error);
 
-    status = curvewise_chaboche_voce_stress(NULL, steel, 8, strain, 3, stress, slopes, &error);
+    status =
+        curvewise_material_stress("chaboche-voce", steel, 8, strain, 3, stress, slopes, &error);
     show("driven", status, stress[2], &error);
     show("driven_by_yield", status, slopes[2 * 8 + 1], &error);
 

@@ -1,9 +1,9 @@
 ! The five measures of two loops from Fortran, a batch, a material, and what an error looks like.
 program fortran_program
     use, intrinsic :: iso_fortran_env, only: real64
-    use curvewise, only: area, cdist, chaboche_voce, chaboche_voce_stress, curve_length, &
-        curve_length_options, curve_view, dtw, dtw_options, frechet, invalid_argument, &
-        normalize, pcm, pdist, scale_range, symmetric2
+    use curvewise, only: area, cdist, curve_length, curve_length_options, curve_view, dtw, &
+        dtw_options, frechet, invalid_argument, &
+        material_stress, normalize, pcm, pdist, scale_range, symmetric2
     implicit none
     real(real64), target :: P(129, 2), Q(65, 2), history(3, 65)
     real(real64), allocatable :: scaled(:, :), pairs(:), table(:, :), stress(:), slopes(:, :)
@@ -42,7 +42,7 @@ program fortran_program
     call cdist(curves(:1), curves(2:), dtw_options(), table)
     call show('table', table(1, 2))
 
-    call chaboche_voce_stress(chaboche_voce(), steel, [0.001_real64, 0.02_real64, -0.02_real64], &
+    call material_stress('chaboche-voce', steel, [0.001_real64, 0.02_real64, -0.02_real64], &
         stress, slopes)
     call show('driven', stress(3))
     call show('driven_by_yield', slopes(2, 3))

@@ -2,11 +2,11 @@
 ! measured. Gauss-Newton steps with the exact derivatives find the parameters of the material.
 program stress_control
     use, intrinsic :: iso_fortran_env, only: real64
-    use curvewise, only: chaboche_voce, chaboche_voce_response, dtw
+    use curvewise, only: dtw, material_response
     implicit none
     integer, parameter :: n = 257, free(3) = [2, 5, 6]   ! yield, C1, gamma1
     character(6), parameter :: names(3) = ['yield ', 'C1    ', 'gamma1']
-    type(chaboche_voce), parameter :: steel = chaboche_voce(backstresses=1)
+    character(*), parameter :: steel = 'chaboche-voce backstresses=1'
     real(real64) :: stress(n), parameters(6), trial(6), step(3), matrix(3, 3), right(3)
     real(real64), allocatable :: measured(:), strain(:), slopes(:, :)
     real(real64) :: error, least
@@ -17,10 +17,10 @@ program stress_control
     ! gamma1.
     stress = [(wave(i), i = 1, n)]
     parameters = [200e3_real64, 250.0_real64, 0.0_real64, 1.0_real64, 60e3_real64, 300.0_real64]
-    call chaboche_voce_response(steel, parameters, stress, measured)
+    call material_response(steel, parameters, stress, measured)
 
     parameters(free) = [300.0_real64, 40e3_real64, 200.0_real64]   ! the first guess
-    call chaboche_voce_response(steel, parameters, stress, strain, slopes=slopes)
+    call material_response(steel, parameters, stress, strain, slopes=slopes)
     least = sum((strain - measured)**2)
     do k = 1, 50
         do i = 1, 3
@@ -31,7 +31,7 @@ program stress_control
         do  ! half of the step, until the error falls
             trial = parameters
             trial(free) = parameters(free) + step
-            call chaboche_voce_response(steel, trial, stress, strain, slopes=slopes, stat=stat, &
+            call material_response(steel, trial, stress, strain, slopes=slopes, stat=stat, &
                 errmsg=message)
             error = huge(error)
             if (stat == 0) error = sum((strain - measured)**2)
@@ -45,7 +45,7 @@ program stress_control
     do i = 1, 3
         print '(a, es26.16e3)', names(i), parameters(free(i))
     end do
-    call chaboche_voce_response(steel, parameters, stress, strain)
+    call material_response(steel, parameters, stress, strain)
     print '(a, es26.16e3)', 'dtw ', dtw(reshape([strain, stress], [n, 2]), &
         reshape([measured, stress], [n, 2]))
 

@@ -18,9 +18,9 @@ module curvewise
         c_ptrdiff_t, c_size_t, c_sizeof
     implicit none
     private
-    public :: area, area_quads, cdist, chaboche_voce_response, chaboche_voce_stress, compare, &
-        curve_length, curvewise_version, dtw, dtw_path, frechet, frechet_continuous, frechet_path, &
-        normalize, pcm, pcm_match, pdist, yoshida_uemori_response, yoshida_uemori_stress
+    public :: area, area_quads, cdist, compare, curve_length, curvewise_version, dtw, dtw_path, &
+        frechet, frechet_continuous, frechet_path, material_response, material_stress, &
+        normalize, pcm, pcm_match, pdist
     public :: report_progress
 
     integer(c_int), parameter, public :: euclidean = 0, sqeuclidean = 1, cityblock = 2, &
@@ -35,8 +35,6 @@ module curvewise
     integer(c_int), parameter, public :: preset_scaled = 0, preset_paper = 1, preset_raw = 2
     integer(c_int), parameter :: measure_area = 0, measure_pcm = 1, measure_frechet = 2, &
         measure_dtw = 3, measure_curve_length = 4, measure_frechet_continuous = 5
-    integer(c_int), parameter, public :: modulus_constant = 0, modulus_decaying = 1   ! modulus
-    integer(c_int), parameter, public :: growth_saturating = 0, growth_power = 1      ! growth
     integer(c_int), parameter, public :: invalid_argument = 1, no_memory = 2, failed = 3, &
         stopped = 4                                                              ! stat
     integer(c_int), parameter :: no_room = 5
@@ -92,17 +90,6 @@ module curvewise
 
     type, extends(measure_options), public :: frechet_continuous_options
         integer(c_ptrdiff_t) :: workers = 1     ! threads, -1 for one per core
-    end type
-
-    type, public :: chaboche_voce
-        integer(c_int) :: backstresses = 2      ! 0 to 99
-        integer(c_int) :: modulus = modulus_constant
-    end type
-
-    type, public :: yoshida_uemori
-        integer(c_int) :: growth = growth_saturating
-        integer(c_int) :: modulus = modulus_constant
-        real(c_double) :: rtol = 1e-9_c_double  ! the error of the integration, relative to CB
     end type
 
     ! The result of compare. A measure of the plane is NaN if the curves have not two coordinates.

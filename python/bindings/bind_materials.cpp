@@ -1,7 +1,8 @@
-// Points of material: each a struct of options, its parameters, its stresses and their slopes.
+// Points of material. A text names the material with its options, as material_from() reads it.
 #include <pybind11/stl.h>
 
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -9,43 +10,47 @@
 #include "curvewise/materials.hpp"
 #include "interruptible.hpp"
 #include "numpy_view.hpp"
-#include "options.hpp"
 
 namespace curvewise::bindings {
 namespace {
 
 using RowMajor = py::array_t<double, py::array::c_style>;
 
-// Reads the options of a material, by name, from a dict.
-class MaterialReader {
+// Writes the options of a material to a dict, by name.
+class MaterialWriter {
    public:
-    explicit MaterialReader(const py::dict& given) noexcept : given_(given) {}
+    explicit MaterialWriter(py::dict& found) noexcept : found_(found) {}
 
-    template <class Enum>
-    std::enable_if_t<std::is_enum_v<Enum>> operator()(const char* name, Enum& value) {
-        constexpr auto names = choice_names(Enum{});
-        const py::object object = given_[name];
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            if (!is_text(object, names[i])) continue;
-            value = static_cast<Enum>(i);
-            return;
-        }
-        refuse_choice(name, object, names.data(), names.size());
-    }
     template <class Value>
-    std::enable_if_t<std::is_arithmetic_v<Value>> operator()(const char* name, Value& value) {
-        value = given_[name].cast<Value>();
+    void operator()(const char* name, const Value& value) {
+        if constexpr (std::is_enum_v<Value>) {
+            found_[name] = choice_names(Value{})[static_cast<std::size_t>(value)];
+        } else {
+            found_[name] = value;
+        }
     }
 
    private:
-    const py::dict& given_;
+    py::dict& found_;
 };
 
-template <class Material>
-Material read_material(const py::dict& options) {
-    Material material;
-    visit_options(material, MaterialReader(options));
-    return material;
+// The options of every material, with their defaults.
+py::dict materials() {
+    py::dict result;
+    for_each_material([&](auto material) {
+        py::dict options;
+        visit_options(material, MaterialWriter(options));
+        result[material.material] = options;
+    });
+    return result;
+}
+
+std::vector<py::tuple> parameter_rows(const std::string& material) {
+    std::vector<py::tuple> rows;
+    for (const MaterialParameter& one : material_parameters(material_from(material))) {
+        rows.push_back(py::make_tuple(one.name, one.unit, one.meaning));
+    }
+    return rows;
 }
 
 // Calls compute(answer, slopes, control) and returns the answer, or both. `slopes` is null unless
@@ -62,9 +67,8 @@ py::object answered(py::ssize_t n, py::ssize_t k, bool with_slopes, double steps
     return std::move(answer);
 }
 
-template <class Material>
-Material material_of(const py::dict& options, const RowMajor& parameters) {
-    auto material = read_material<Material>(options);
+Material material_of(const std::string& text, const RowMajor& parameters) {
+    Material material = material_from(text);
     const auto k = static_cast<std::size_t>(parameters.size());
     if (k != material_parameters(material).size()) {
         throw std::invalid_argument("wrong number of parameters");
@@ -72,49 +76,38 @@ Material material_of(const py::dict& options, const RowMajor& parameters) {
     return material;
 }
 
-// The functions <name>_parameters(options), <name>_stress(options, parameters, strain, slopes) and
-// <name>_response(options, parameters, given, by_stress, slopes).
-template <class Material>
-void bind(py::module_& module, const std::string& name) {
-    module.def((name + "_parameters").c_str(), [](const py::dict& options) {
-        std::vector<py::tuple> rows;
-        for (const MaterialParameter& one : material_parameters(read_material<Material>(options))) {
-            rows.push_back(py::make_tuple(one.name, one.unit, one.meaning));
-        }
-        return rows;
-    });
-    module.def((name + "_stress").c_str(), [](const py::dict& options, const RowMajor& parameters,
-                                              const RowMajor& strain, bool with_slopes) {
-        const auto material = material_of<Material>(options, parameters);
-        const py::ssize_t n = strain.size();
-        return answered(n, parameters.size(), with_slopes, 100.0,
-                        [&](double* stress, double* slopes, Control* control) {
-                            material_stress(material, parameters.data(), strain.data(), n, stress,
-                                            slopes, control);
-                        });
-    });
-    module.def((name + "_response").c_str(),
-               [](const py::dict& options, const RowMajor& parameters, const RowMajor& given,
-                  const py::array_t<bool, py::array::c_style>& by_stress, bool with_slopes) {
-                   const auto material = material_of<Material>(options, parameters);
-                   const py::ssize_t n = given.size();
-                   if (by_stress.size() != n) {
-                       throw std::invalid_argument("by_stress has another length than given");
-                   }
-                   return answered(n, parameters.size(), with_slopes, 1000.0,
-                                   [&](double* answer, double* slopes, Control* control) {
-                                       material_response(material, parameters.data(), given.data(),
-                                                         by_stress.data(), n, answer, slopes,
-                                                         control);
-                                   });
-               });
+py::object stress(const std::string& text, const RowMajor& parameters, const RowMajor& strain,
+                  bool with_slopes) {
+    const Material material = material_of(text, parameters);
+    const py::ssize_t n = strain.size();
+    return answered(n, parameters.size(), with_slopes, 100.0,
+                    [&](double* found, double* slopes, Control* control) {
+                        material_stress(material, parameters.data(), strain.data(), n, found,
+                                        slopes, control);
+                    });
+}
+
+py::object response(const std::string& text, const RowMajor& parameters, const RowMajor& given,
+                    const py::array_t<bool, py::array::c_style>& by_stress, bool with_slopes) {
+    const Material material = material_of(text, parameters);
+    const py::ssize_t n = given.size();
+    if (by_stress.size() != n) {
+        throw std::invalid_argument("by_stress has another length than given");
+    }
+    return answered(n, parameters.size(), with_slopes, 1000.0,
+                    [&](double* answer, double* slopes, Control* control) {
+                        material_response(material, parameters.data(), given.data(),
+                                          by_stress.data(), n, answer, slopes, control);
+                    });
 }
 
 }  // namespace
 
 void bind_materials(py::module_& module) {
-    bind<ChabocheVoce>(module, "chaboche_voce");
-    bind<YoshidaUemori>(module, "yoshida_uemori");
+    module.def("materials", &materials);
+    module.def("material_parameters", &parameter_rows);
+    module.def("material_stress", &stress);
+    module.def("material_response", &response);
 }
 
 }  // namespace curvewise::bindings

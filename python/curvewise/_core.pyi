@@ -175,24 +175,11 @@ def dtw_mean(
     progress: _Report | None,
     /,
 ) -> tuple[_Array, _Array, bool]: ...
-def chaboche_voce_parameters(options: _Options, /) -> list[tuple[str, str, str]]: ...
-def chaboche_voce_stress(
-    options: _Options, parameters: _Array, strain: _Array, slopes: bool, /
-) -> Any: ...
-def chaboche_voce_response(
-    options: _Options,
-    parameters: _Array,
-    given: _Array,
-    by_stress: npt.NDArray[np.bool_],
-    slopes: bool,
-    /,
-) -> Any: ...
-def yoshida_uemori_parameters(options: _Options, /) -> list[tuple[str, str, str]]: ...
-def yoshida_uemori_stress(
-    options: _Options, parameters: _Array, strain: _Array, slopes: bool, /
-) -> Any: ...
-def yoshida_uemori_response(
-    options: _Options,
+def materials() -> dict[str, _Options]: ...
+def material_parameters(material: str, /) -> list[tuple[str, str, str]]: ...
+def material_stress(material: str, parameters: _Array, strain: _Array, slopes: bool, /) -> Any: ...
+def material_response(
+    material: str,
     parameters: _Array,
     given: _Array,
     by_stress: npt.NDArray[np.bool_],

@@ -201,31 +201,5 @@ typedef struct curvewise_search_options {
 #define CURVEWISE_SEARCH_DEFAULTS \
     { sizeof(curvewise_search_options), NULL, 1, 1, 1 }
 
-/** Values of `modulus` of a material. */
-enum curvewise_modulus { CURVEWISE_CONSTANT, CURVEWISE_DECAYING };
-/** Values of curvewise_yoshida_uemori.growth. */
-enum curvewise_growth { CURVEWISE_SATURATING, CURVEWISE_POWER };
-
-/** The material of curvewise_chaboche_voce_stress(), as in materials.hpp. */
-typedef struct curvewise_chaboche_voce {
-    size_t size;
-    int backstresses; /**< 0 to 99 */
-    int modulus;      /**< curvewise_modulus */
-} curvewise_chaboche_voce;
-/** The material for NULL. */
-#define CURVEWISE_CHABOCHE_VOCE_DEFAULTS \
-    { sizeof(curvewise_chaboche_voce), 2, CURVEWISE_CONSTANT }
-
-/** The material of curvewise_yoshida_uemori_stress(), as in materials.hpp. */
-typedef struct curvewise_yoshida_uemori {
-    size_t size;
-    int growth;  /**< curvewise_growth */
-    int modulus; /**< curvewise_modulus */
-    double rtol; /**< the error that the integration may make, relative to CB */
-} curvewise_yoshida_uemori;
-/** The material for NULL. */
-#define CURVEWISE_YOSHIDA_UEMORI_DEFAULTS \
-    { sizeof(curvewise_yoshida_uemori), CURVEWISE_SATURATING, CURVEWISE_CONSTANT, 1e-9 }
-
 #endif
 /* NOLINTEND(modernize-*,readability-identifier-naming) */

@@ -39,6 +39,8 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "curvewise/control.hpp"
@@ -71,12 +73,14 @@ constexpr auto choice_names(BoundGrowth /*growth*/) noexcept {
 
 /// Parameters, in order: E (Ea, xi), yield, Q, b, then C1, gamma1, C2, gamma2, ...
 struct ChabocheVoce {
+    static constexpr const char* material = "chaboche-voce";
     int backstresses = 2;  ///< 0 to 99
     Modulus modulus = Modulus::constant;
 };
 
 /// Parameters, in order: E (Ea, xi), CB, Y, C, K, RSAT, SB, H (C1, C2).
 struct YoshidaUemori {
+    static constexpr const char* material = "yoshida-uemori";
     BoundGrowth growth = BoundGrowth::saturating;
     Modulus modulus = Modulus::constant;
     /// The error that the integration may make, relative to CB. 1e-12 to 1e-3.
@@ -96,6 +100,21 @@ void visit_options(YoshidaUemori& material, Visit&& visit) {
     visit("rtol", material.rtol);
 }
 
+/// The list of materials: one of them, chosen by the type of its options. C, Fortran and Python
+/// have every material that is added here.
+using Material = std::variant<ChabocheVoce, YoshidaUemori>;
+
+/// Calls visit(material), with the default options of every material in the order of the list.
+template <class Visit>
+void for_each_material(Visit&& visit) {
+    detail::for_each_alternative(static_cast<const Material*>(nullptr), visit);
+}
+
+/// The material that a text names, with options after it: "chaboche-voce", or "yoshida-uemori
+/// growth=power rtol=1e-6". Options that are not named have their defaults. Throws
+/// std::invalid_argument with the known names and values.
+[[nodiscard]] CURVEWISE_EXPORT Material material_from(std::string_view text);
+
 /// One parameter of a material. Units of stress are those of the caller.
 struct MaterialParameter {
     std::string name;
@@ -105,16 +124,11 @@ struct MaterialParameter {
 
 /// The parameters of a material, in the order of material_stress().
 [[nodiscard]] CURVEWISE_EXPORT std::vector<MaterialParameter> material_parameters(
-    const ChabocheVoce& material);
-[[nodiscard]] CURVEWISE_EXPORT std::vector<MaterialParameter> material_parameters(
-    const YoshidaUemori& material);
+    const Material& material);
 
 /// Writes the stress at each of n strains. Unless `slopes` is null, also writes the derivative of
 /// stress i by parameter j to slopes[i * k + j], in n rows of k numbers for k parameters.
-CURVEWISE_EXPORT void material_stress(const ChabocheVoce& material, const double* parameters,
-                                      const double* strain, std::ptrdiff_t n, double* stress,
-                                      double* slopes = nullptr, Control* control = nullptr);
-CURVEWISE_EXPORT void material_stress(const YoshidaUemori& material, const double* parameters,
+CURVEWISE_EXPORT void material_stress(const Material& material, const double* parameters,
                                       const double* strain, std::ptrdiff_t n, double* stress,
                                       double* slopes = nullptr, Control* control = nullptr);
 
@@ -124,11 +138,7 @@ CURVEWISE_EXPORT void material_stress(const YoshidaUemori& material, const doubl
 /// reached by the first strain that a search finds, for materials that harden by the only one.
 /// Throws std::invalid_argument too if hardening ends before a stress. About ten times the time of
 /// material_stress().
-CURVEWISE_EXPORT void material_response(const ChabocheVoce& material, const double* parameters,
-                                        const double* given, const bool* by_stress,
-                                        std::ptrdiff_t n, double* answer, double* slopes = nullptr,
-                                        Control* control = nullptr);
-CURVEWISE_EXPORT void material_response(const YoshidaUemori& material, const double* parameters,
+CURVEWISE_EXPORT void material_response(const Material& material, const double* parameters,
                                         const double* given, const bool* by_stress,
                                         std::ptrdiff_t n, double* answer, double* slopes = nullptr,
                                         Control* control = nullptr);

@@ -157,14 +157,6 @@ curvewise_search_options complete(const curvewise_search_options* given) {
     return complete(given, CURVEWISE_SEARCH_DEFAULTS, "CURVEWISE_SEARCH_DEFAULTS");
 }
 
-curvewise_chaboche_voce complete(const curvewise_chaboche_voce* given) {
-    return complete(given, CURVEWISE_CHABOCHE_VOCE_DEFAULTS, "CURVEWISE_CHABOCHE_VOCE_DEFAULTS");
-}
-
-curvewise_yoshida_uemori complete(const curvewise_yoshida_uemori* given) {
-    return complete(given, CURVEWISE_YOSHIDA_UEMORI_DEFAULTS, "CURVEWISE_YOSHIDA_UEMORI_DEFAULTS");
-}
-
 ChosenMeasure measure_of(int measure, const void* options) {
     switch (measure) {
         case CURVEWISE_AREA:

@@ -105,8 +105,6 @@ curvewise_frechet_continuous_options complete(const curvewise_frechet_continuous
 curvewise_compare_options complete(const curvewise_compare_options* given);
 curvewise_batch_options complete(const curvewise_batch_options* given);
 curvewise_search_options complete(const curvewise_search_options* given);
-curvewise_chaboche_voce complete(const curvewise_chaboche_voce* given);
-curvewise_yoshida_uemori complete(const curvewise_yoshida_uemori* given);
 
 // The exception of a result that the caller's array has no room for.
 class NoRoom : public std::runtime_error {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "curvewise/materials.hpp"
+#include "materials/law.hpp"
 #include "materials/path.hpp"
 #include "materials/quadrature.hpp"
 
@@ -23,11 +24,6 @@ namespace curvewise::materials {
 
 // The place of the yield stress among the parameters; Q, b, C1, gamma1, C2, ... follow it.
 inline std::size_t place_of_yield(Modulus modulus) { return modulus == Modulus::constant ? 1 : 3; }
-
-// Throws for parameters that make no sense.
-Parameters checked_parameters(const ChabocheVoce& material, const double* values);
-// What hardening leads to at most.
-double largest_stress(const ChabocheVoce& material, const Parameters& checked);
 
 // R, or n X of a back stress, while flow keeps its direction.
 template <class Number>
@@ -197,6 +193,16 @@ class ChabocheVocePoint {
     std::vector<Number> rises_;
     std::vector<double> falls_;  // exp(-rate p) - 1 of each term
     Number stress_{}, p_{};
+};
+
+template <>
+struct Law<ChabocheVoce> {
+    template <class Number>
+    using Point = ChabocheVocePoint<Number>;
+    static std::vector<MaterialParameter> parameters(const ChabocheVoce& material);
+    static void check(const ChabocheVoce& material, const Parameters& given);
+    static double largest_stress(const ChabocheVoce& material, const Parameters& checked,
+                                 const StrainPath& path);
 };
 
 }  // namespace curvewise::materials

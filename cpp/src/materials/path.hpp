@@ -101,6 +101,21 @@ struct YoungsModulus {
 
 inline constexpr double most_strain = 100.0;  // 10,000 %
 
+// A path of strain, of which a law may ask how long it is. Without strains, any path of n points.
+struct StrainPath {
+    const double* strain;
+    std::ptrdiff_t n;
+
+    double length() const {
+        if (strain == nullptr) return 2.0 * most_strain * static_cast<double>(n);
+        double sum = 0.0;
+        for (std::ptrdiff_t i = 0; i < n; ++i) {
+            sum += std::abs(strain[i] - (i > 0 ? strain[i - 1] : 0.0));
+        }
+        return sum;
+    }
+};
+
 // Throws for an invalid strain: not finite, or beyond the largest.
 void check_strain(double strain, std::ptrdiff_t i);
 void check_strains(const double* strain, std::ptrdiff_t n);

@@ -1,4 +1,4 @@
-// The Yoshida-Uemori material: its parameters, their valid values, and the walk along a path.
+// The Yoshida-Uemori material: its parameters and their valid values.
 #include "materials/yoshida_uemori.hpp"
 
 #include <cmath>
@@ -6,51 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "curvewise/materials.hpp"
+#include "materials/law.inl.hpp"
 
-namespace curvewise {
-namespace materials {
+namespace curvewise::materials {
 
 std::size_t place_of_bound(const YoshidaUemori& material) {
     return material.modulus == Modulus::constant ? 1 : 3;
 }
 
-Parameters checked_parameters(const YoshidaUemori& material, const double* values) {
-    const Parameters checked(material_parameters(material), values);
-    check_modulus(checked, material.modulus);
-    const std::size_t CB = place_of_bound(material), Y = CB + 1, C = CB + 2, H = CB + 6;
-    checked.above_zero(Y);
-    checked.above_zero(C);
-    for (std::size_t i = C + 1; i < checked.count(); ++i) checked.at_least_zero(i);
-    if (checked[CB] <= checked[Y]) {
-        checked.refuse(CB, "the bounding surface must enclose the yield surface; give CB > Y");
-    }
-    if (material.growth == BoundGrowth::power && checked[H + 1] == 0.0) {
-        checked.refuse(H + 1, "it must be above 0");
-    }
-    constexpr double most_share = 1e6;  // beyond it rounding decides where growth stagnates
-    if (checked[H] > most_share) checked.refuse(H, "it must be at most 1e6");
-    if (!(material.rtol >= 1e-12 && material.rtol <= 1e-3)) {
-        throw std::invalid_argument("rtol is " + text_of(material.rtol) +
-                                    "; give a number from 1e-12 to 1e-3");
-    }
-    return checked;
-}
-
-double largest_stress(const YoshidaUemori& material, const Parameters& checked, double path) {
-    const std::size_t CB = place_of_bound(material), RSAT = CB + 4, SB = CB + 5, H = CB + 6;
-    double growth = checked[RSAT];
-    if (material.growth == BoundGrowth::power) {
-        const double C1 = checked[H + 1], C2 = checked[H + 2];
-        growth *= std::pow(C1 + path, C2) - std::pow(C1, C2);
-    }
-    return with_rounding(checked[CB] + growth + checked[SB], 10.0 * material.rtol);
-}
-
-}  // namespace materials
-
-std::vector<MaterialParameter> material_parameters(const YoshidaUemori& material) {
-    std::vector<MaterialParameter> parameters = materials::modulus_parameters(material.modulus);
+std::vector<MaterialParameter> Law<YoshidaUemori>::parameters(const YoshidaUemori& material) {
+    std::vector<MaterialParameter> parameters = modulus_parameters(material.modulus);
     parameters.push_back({"CB", "stress", "initial size of the bounding surface"});
     parameters.push_back({"Y", "stress", "size of the yield surface"});
     parameters.push_back({"C", "-", "rate of the yield surface's motion"});
@@ -66,21 +31,37 @@ std::vector<MaterialParameter> material_parameters(const YoshidaUemori& material
     return parameters;
 }
 
-void material_stress(const YoshidaUemori& material, const double* parameters, const double* strain,
-                     std::ptrdiff_t n, double* stress, double* slopes, Control* control) {
-    const materials::Parameters checked = materials::checked_parameters(material, parameters);
-    materials::check_strains(strain, n);
-    double path = 0.0;
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
-        path += std::abs(strain[i] - (i > 0 ? strain[i - 1] : 0.0));
+void Law<YoshidaUemori>::check(const YoshidaUemori& material, const Parameters& given) {
+    check_modulus(given, material.modulus);
+    const std::size_t CB = place_of_bound(material), Y = CB + 1, C = CB + 2, H = CB + 6;
+    given.above_zero(Y);
+    given.above_zero(C);
+    for (std::size_t i = C + 1; i < given.count(); ++i) given.at_least_zero(i);
+    if (given[CB] <= given[Y]) {
+        given.refuse(CB, "the bounding surface must enclose the yield surface; give CB > Y");
     }
-    try {
-        materials::integrate<materials::YoshidaUemoriPoint>(
-            material, checked, materials::largest_stress(material, checked, path), strain, n,
-            stress, slopes, control);
-    } catch (const materials::NoStress& found) {
-        checked.refuse(found);
+    if (material.growth == BoundGrowth::power && given[H + 1] == 0.0) {
+        given.refuse(H + 1, "it must be above 0");
+    }
+    constexpr double most_share = 1e6;  // beyond it rounding decides where growth stagnates
+    if (given[H] > most_share) given.refuse(H, "it must be at most 1e6");
+    if (!(material.rtol >= 1e-12 && material.rtol <= 1e-3)) {
+        throw std::invalid_argument("rtol is " + text_of(material.rtol) +
+                                    "; give a number from 1e-12 to 1e-3");
     }
 }
 
-}  // namespace curvewise
+double Law<YoshidaUemori>::largest_stress(const YoshidaUemori& material, const Parameters& checked,
+                                          const StrainPath& path) {
+    const std::size_t CB = place_of_bound(material), RSAT = CB + 4, SB = CB + 5, H = CB + 6;
+    double growth = checked[RSAT];
+    if (material.growth == BoundGrowth::power) {
+        const double C1 = checked[H + 1], C2 = checked[H + 2];
+        growth *= std::pow(C1 + path.length(), C2) - std::pow(C1, C2);
+    }
+    return with_rounding(checked[CB] + growth + checked[SB], 10.0 * material.rtol);
+}
+
+template struct ByStrain<YoshidaUemori>;
+
+}  // namespace curvewise::materials

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "curvewise/materials.hpp"
+#include "materials/law.hpp"
 #include "materials/path.hpp"
 #include "materials/yoshida_uemori_flow.hpp"
 
@@ -19,11 +20,6 @@ std::vector<double> values_of(const Number* numbers, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) values[i] = value_of(numbers[i]);
     return values;
 }
-
-// Throws for parameters that make no sense.
-Parameters checked_parameters(const YoshidaUemori& material, const double* values);
-// What hardening leads to at most, along a path of strain of a length.
-double largest_stress(const YoshidaUemori& material, const Parameters& checked, double path);
 
 template <class Number>
 class YoshidaUemoriPoint {
@@ -101,6 +97,16 @@ class YoshidaUemoriPoint {
     Number stress_{}, p_{}, R_{}, u_{}, centre_{};
     Number stagnation_size_{}, stagnation_centre_{};
     double touched_ = 0.0;  // the direction in which the stagnation surface was pushed last
+};
+
+template <>
+struct Law<YoshidaUemori> {
+    template <class Number>
+    using Point = YoshidaUemoriPoint<Number>;
+    static std::vector<MaterialParameter> parameters(const YoshidaUemori& material);
+    static void check(const YoshidaUemori& material, const Parameters& given);
+    static double largest_stress(const YoshidaUemori& material, const Parameters& checked,
+                                 const StrainPath& path);
 };
 
 }  // namespace curvewise::materials

@@ -6,14 +6,14 @@ import argparse
 import re
 import sys
 import warnings
-from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .._bounds import on_its_scale
 from ..curves.inputs import Array
 from ..files.column_units import factor_of, in_mpa
-from ..materials import MATERIALS
+from ..materials import MATERIALS, Material
+from ..materials.options import material_options
 from ..solvers.cards import FORMATS
 from .reading import (
     ColumnsError,
@@ -51,18 +51,16 @@ def add_fit(commands: Any) -> None:
         "--material",
         choices=list(MATERIALS),
         default="chaboche-voce",
-        help="chaboche-voce (default): back stresses and isotropic hardening or softening; "
-        "yoshida-uemori: two surfaces, for sheet steel",
+        help="; ".join(f"{name}: {_summary(kind)}" for name, kind in MATERIALS.items()),
     )
-    command.add_argument(
-        "--backstresses", type=int, default=2, metavar="N", help="of chaboche-voce; 2 by default"
-    )
-    command.add_argument(
-        "--modulus",
-        choices=["constant", "decaying"],
-        default="constant",
-        help="whether Young's modulus decays with the plastic strain",
-    )
+    for option in material_options(MATERIALS.values()).values():
+        command.add_argument(
+            f"--{option.name}",
+            type=str if option.choices else int,
+            choices=option.choices or None,
+            metavar=None if option.choices else "N",
+            help=f"option of {', '.join(option.materials)} (default: {option.default})",
+        )
     _add_known(command)
     command.add_argument(
         "--measure", default="sum_of_squares", help="what is minimised; sum_of_squares by default"
@@ -79,6 +77,11 @@ def add_fit(commands: Any) -> None:
         help="fit tests that do not begin at zero strain and stress as they are",
     )
     _add_output(command)
+
+
+def _summary(kind: type[Material]) -> str:
+    """Return the first line of a material's docstring."""
+    return (kind.__doc__ or "").partition("\n")[0].rstrip(".")
 
 
 def _add_known(command: argparse.ArgumentParser) -> None:
@@ -184,9 +187,7 @@ def _fit(arguments: argparse.Namespace) -> int:
     )
 
     require_matplotlib()
-    kind = MATERIALS[arguments.material]
-    given = vars(arguments)
-    material = kind(**{one.name: given[one.name] for one in fields(kind) if one.name in given})
+    material = _material(arguments)
     fixed, bounds = _in_units(arguments)
     files = arguments.tests
     with warnings_printed():
@@ -225,6 +226,23 @@ def _fit(arguments: argparse.Namespace) -> int:
     if refusal:
         raise ValueError(refusal)
     return 0
+
+
+def _material(arguments: argparse.Namespace) -> Material:
+    """Return the material with the options that are given."""
+    kind = MATERIALS[arguments.material]
+    given: dict[str, Any] = {}
+    for option in material_options(MATERIALS.values()).values():
+        value = getattr(arguments, option.name)
+        if value is None:
+            continue
+        if kind.name not in option.materials:
+            raise ValueError(
+                f"--{option.name} is an option of {', '.join(option.materials)}; leave it out for "
+                f"{kind.name}"
+            )
+        given[option.name] = value
+    return kind(**given)
 
 
 def _ask_about_beginnings(tests: list[Any], units: str) -> None:

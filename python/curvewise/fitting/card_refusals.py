@@ -17,7 +17,6 @@ from ..calibration.problem.tables import digits
 
 __all__ = ["UndeterminedCardError", "check_refusals", "refusals_of"]
 
-_ALONE = ("E", "yield", "Y")
 _REACHED = 1e-6  # part of the bounds' range
 
 
@@ -33,7 +32,10 @@ class UndeterminedCardError(ValueError):
 
 
 def refusals_of(
-    uncertainty: Uncertainty | None, bounds: Mapping[str, tuple[float, float]], units: str
+    uncertainty: Uncertainty | None,
+    bounds: Mapping[str, tuple[float, float]],
+    units: str,
+    yield_stress: str,
 ) -> dict[str, str]:
     """Return why a modulus or a yield stress is doubtful, by name.
 
@@ -44,11 +46,13 @@ def refusals_of(
         The bounds of the search.
     units : str
         Unit of stress.
+    yield_stress : str
+        Name of the parameter, as :class:`curvewise.materials.Material` has it.
     """
     if uncertainty is None:
         return {}
     found = {}
-    for name in _ALONE:
+    for name in ("E", yield_stress):
         if uncertainty.determined.get(name, True):
             continue
         value, (low, high) = uncertainty.parameters[name], uncertainty.intervals[name]

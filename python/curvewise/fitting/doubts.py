@@ -20,6 +20,7 @@ from ..calibration.records.search_record import Doubt
 from ..calibration.report.misfit import SYSTEMATIC, scatter_share
 from ..curves.inputs import Array
 from ..curves.turns import turning_points
+from ..materials import Material
 from .driven_tests import Cycles
 from .wider_bounds import Beyond
 
@@ -31,8 +32,7 @@ _FAR = 0.01  # root mean square deviation, of the range of stress
 _LITTLE, _ENOUGH = 0.002, 0.01  # plastic strain amplitudes that tell little, and that tell much
 _SAME_SIZE = 0.8  # of the largest amplitude
 _CYCLES = 20
-_ELASTIC = ("E", "Ea", "xi", "yield", "Y")  # parameters that tension alone shows
-_GROWTH = ("Q", "b")  # isotropic hardening, where the kinematic one has other parameters
+_ELASTIC = ("E", "Ea", "xi")  # with the yield stress, parameters that tension alone shows
 
 
 def doubts_of(
@@ -40,6 +40,7 @@ def doubts_of(
     found: Identification,
     uncertainty: Uncertainty | None,
     *,
+    material: Material,
     modulus_read: float,
     cycles: Cycles,
     beyond: Beyond | None,
@@ -49,7 +50,7 @@ def doubts_of(
 
     Parameters
     ----------
-    tests, found, uncertainty, modulus_read, cycles, beyond, beginning
+    tests, found, uncertainty, material, modulus_read, cycles, beyond, beginning
         As those of a :class:`MaterialFit`.
     """
     open_names = []
@@ -60,8 +61,8 @@ def doubts_of(
             if not is_good and name not in uncertainty.at_bounds
         ]
     doubts = [
-        *_of_tension(tests, found, open_names),
-        *_of_one_cycle(found, cycles),
+        *_of_tension(tests, found, material, open_names),
+        *_of_one_cycle(found, material, cycles),
         *_of_modulus(found, modulus_read),
         *_of_bounds(beyond),
     ]
@@ -114,14 +115,15 @@ def _per_cent(strain: float) -> str:
 
 
 def _of_tension(
-    tests: Sequence[Array], found: Identification, open_names: Sequence[str]
+    tests: Sequence[Array], found: Identification, material: Material, open_names: Sequence[str]
 ) -> list[Doubt]:
     """Doubt both kinds of hardening where no test reverses, unless one of them is known."""
-    if any(turning_points(test).size for test in tests):
+    if not material.has_kinematic_hardening or any(turning_points(test).size for test in tests):
         return []
-    hardening = tuple(name for name in found.bounds if name not in _ELASTIC)
-    is_split = "yield" in found.parameters  # Yoshida and Uemori's have both kinds always
-    growth = [name for name in hardening if name in _GROWTH]
+    shown = (*_ELASTIC, material.yield_stress)
+    hardening = tuple(name for name in found.bounds if name not in shown)
+    growth = [name for name in hardening if name in material.isotropic]
+    is_split = bool(material.isotropic)
     if not hardening or (is_split and (not growth or len(growth) == len(hardening))):
         return []
     return [
@@ -134,16 +136,20 @@ def _of_tension(
     ]
 
 
-def _of_one_cycle(found: Identification, cycles: Cycles) -> list[Doubt]:
+def _of_one_cycle(found: Identification, material: Material, cycles: Cycles) -> list[Doubt]:
     """Doubt the yield stress and its growth where a stabilised cycle alone has to tell them."""
-    if cycles != "last" or "Q" not in found.bounds or "yield" not in found.bounds:
+    size, none = material.yield_stress, material.isotropic
+    growth = next(iter(none), "")
+    if cycles != "last" or growth not in found.bounds or size not in found.bounds:
         return []
+    fixed = " and ".join(f"{name} = {value:g}" for name, value in none.items())
+    command = " ".join(f"{name}={value:g}" for name, value in none.items())
     return [
         Doubt(
-            tuple(name for name in ("yield", *_GROWTH) if name in found.bounds),
-            "the last cycle shows the sum of yield and Q alone. Compare all cycles of a test that "
-            "starts from the virgin state. Or fix Q = 0 and b = 1 (--fix Q=0 b=1): yield is then "
-            "the size of the stabilised cycle.",
+            tuple(name for name in (size, *none) if name in found.bounds),
+            f"the last cycle shows the sum of {size} and {growth} alone. Compare all cycles of a "
+            f"test that starts from the virgin state. Or fix {fixed} (--fix {command}): {size} is "
+            "then the size of the stabilised cycle.",
         )
     ]
 

@@ -39,7 +39,9 @@ class CardsOfFit:
         One of them is doubtful if the tests do not determine it, and its interval reaches a bound
         of the search or is wider than its value.
         """
-        return refusals_of(self.uncertainty, self.found.bounds, self.units)
+        return refusals_of(
+            self.uncertainty, self.found.bounds, self.units, self.material.yield_stress
+        )
 
     def card(
         self, solver: str, *, name: str = "material", accept_undetermined: bool = False

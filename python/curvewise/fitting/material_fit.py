@@ -112,6 +112,7 @@ class MaterialFit(CardsOfFit):
             self.tests,
             self.found,
             self.uncertainty,
+            material=self.material,
             modulus_read=self.modulus_read,
             cycles=self.cycles,
             beyond=self.beyond,
@@ -281,7 +282,7 @@ def fit_material(
     read_off = {} if is_whole else material.bounds_from(whole)
     beginning = warn_of_beginnings(given, units, level=2) if cycles == "all" else ""
     modulus = modulus_of(given)
-    check_units({**own, **known}, given, units)
+    check_units({**own, **known}, given, units, material.yield_stress)
     search = partial(
         identify,
         driven.model,

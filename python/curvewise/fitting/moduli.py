@@ -48,7 +48,7 @@ def _fixed() -> str:
     return command_of("fix") or "fixed"
 
 
-def check_units(bounds: Bounds, tests: Sequence[Any], units: str) -> None:
+def check_units(bounds: Bounds, tests: Sequence[Any], units: str, yield_stress: str) -> None:
     """Refuse a modulus or a yield stress in another unit than the stresses of the tests.
 
     Parameters
@@ -59,6 +59,8 @@ def check_units(bounds: Bounds, tests: Sequence[Any], units: str) -> None:
         Strain and stress.
     units : str
         The unit of the stresses.
+    yield_stress : str
+        Name of the yield stress among the parameters; "" without one.
 
     Raises
     ------
@@ -82,14 +84,13 @@ def check_units(bounds: Bounds, tests: Sequence[Any], units: str) -> None:
             f"({f'{other} for {units}' if other else 'other units'}?)"
         )
     largest = max(reading_of(test, name_of_test(test, i)).stress for i, test in enumerate(tests))
-    for name in ("yield", "Y"):
-        low, high = _ends(bounds.get(name))
-        if low > _MOST_YIELD * largest or 0.0 < high < largest / _LEAST_YIELD:
-            value = low if low > largest else high
-            raise ValueError(
-                f"{name} is {value:.6g} {units}, and the largest stress of the tests is "
-                f"{digits(largest, 4)}; give it in the unit of their stresses"
-            )
+    low, high = _ends(bounds.get(yield_stress))
+    if low > _MOST_YIELD * largest or 0.0 < high < largest / _LEAST_YIELD:
+        value = low if low > largest else high
+        raise ValueError(
+            f"{yield_stress} is {value:.6g} {units}, and the largest stress of the tests is "
+            f"{digits(largest, 4)}; give it in the unit of their stresses"
+        )
 
 
 def _ends(given: Any) -> tuple[float, float]:

@@ -17,8 +17,5 @@ from .yoshida_uemori import YoshidaUemori
 __all__ = ["MATERIALS", "ChabocheVoce", "DrivenModel", "Material", "Parameter", "YoshidaUemori"]
 __dir__ = names_alone(__all__)
 
-MATERIALS: dict[str, type[Material]] = {
-    "chaboche-voce": ChabocheVoce,
-    "yoshida-uemori": YoshidaUemori,
-}
+MATERIALS: dict[str, type[Material]] = {kind.name: kind for kind in (ChabocheVoce, YoshidaUemori)}
 """The materials by the names that commands and studies call them by."""

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, Literal
 
 from .._bounds import Bounds, Log
-from .._core import chaboche_voce_parameters, chaboche_voce_response, chaboche_voce_stress
 from .material import Material
 from .readings import Span
 
@@ -52,12 +52,11 @@ class ChabocheVoce(Material):
     array([ 200.  ,  493.28,   93.28, -482.81])
     """
 
+    name = "chaboche-voce"
+    yield_stress = "yield"
+    isotropic = MappingProxyType({"Q": 0.0, "b": 1.0})
     backstresses: int = 2
     modulus: Literal["constant", "decaying"] = "constant"
-
-    @property
-    def _compiled(self) -> tuple[Any, Any, Any]:
-        return chaboche_voce_parameters, chaboche_voce_stress, chaboche_voce_response
 
     def _hardening_bounds(self, span: Span) -> Bounds:
         # Steep back stresses leave little initial yield stress; softening may remove much of it.

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import datetime
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar
 
 from .._bounds import Bounds, Log, on_its_scale
 from .._names import did_you_mean
@@ -21,8 +21,27 @@ __all__ = ["Material"]
 
 
 @dataclass(frozen=True)
-class Material(MaterialPoint):
-    """A point of material with bounds that tests suggest, and with material cards."""
+class Material(MaterialPoint, ABC):
+    """A point of material with bounds that tests suggest, and with material cards.
+
+    The attributes are the record of a material, which commands, studies, fits and cards read.
+
+    Attributes
+    ----------
+    name : str
+        The name in C++, C and Fortran, in commands and in studies.
+    yield_stress : str
+        Parameter that is the initial yield stress; "" if it is none.
+    isotropic : mapping of str to float
+        Parameters of isotropic hardening, with values for which there is none. Empty if the
+        hardening has no such parameters.
+    has_kinematic_hardening : bool
+        Whether a reversal shows more than a test of tension.
+    """
+
+    yield_stress: ClassVar[str]
+    isotropic: ClassVar[Mapping[str, float]] = {}
+    has_kinematic_hardening: ClassVar[bool] = True
 
     def driven_by(
         self: PointType,
@@ -207,9 +226,14 @@ class Material(MaterialPoint):
                     f"{', '.join(numbers)})"
                 )
         content = CardContent(
+            material=self.name,
             model=type(self).__name__,
             described=repr(self),
-            options=asdict(self),
+            choices={
+                one.name: chosen
+                for one in fields(self)
+                if isinstance(chosen := getattr(self, one.name), str) and chosen != one.default
+            },
             parameters=numbers,
             units={p.name: units if p.unit == "stress" else p.unit for p in self.parameters},
             meanings={p.name: p.meaning for p in self.parameters},

@@ -7,15 +7,15 @@ by k parameters k / 8 times that.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from .._core import material_parameters, material_response, material_stress
 from .._names import did_you_mean
 from ..curves.inputs import Array, as_curve
 
@@ -41,13 +41,11 @@ class Parameter(NamedTuple):
 
 
 @dataclass(frozen=True)
-class MaterialPoint(ABC):
+class MaterialPoint:
     """A point of material under uniaxial strain or stress, unloaded at the start, without rate."""
 
-    @property
-    @abstractmethod
-    def _compiled(self) -> tuple[Any, Any, Any]:
-        """The compiled functions of parameters, of stresses, and of responses to both."""
+    name: ClassVar[str]
+    """The material's name in C++, C and Fortran, in commands and in studies."""
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
@@ -160,7 +158,7 @@ class MaterialPoint(ABC):
         path = as_curve(strain, "strain")
         if path.ndim != 1:
             raise ValueError(f"strain has shape {path.shape}; give one value per point, shape (n,)")
-        return self._compiled[1](asdict(self), self._values(parameters), path, slopes)
+        return material_stress(_text_of(self), self._values(parameters), path, slopes)
 
     def _respond(
         self,
@@ -179,7 +177,7 @@ class MaterialPoint(ABC):
                 f"one of them for each of the {len(path)} points"
             )
         every = np.ascontiguousarray(np.broadcast_to(stresses, path.shape))
-        return self._compiled[2](asdict(self), self._values(parameters), path, every, slopes)
+        return material_response(_text_of(self), self._values(parameters), path, every, slopes)
 
     def _values(self, parameters: Mapping[str, float]) -> Array:
         """Return the numbers in the order of `names`."""
@@ -197,4 +195,12 @@ class MaterialPoint(ABC):
 
 @cache  # not within the material: a model that has run must be the same to a store
 def _parameters_of(material: MaterialPoint) -> tuple[Parameter, ...]:
-    return tuple(Parameter(*row) for row in material._compiled[0](asdict(material)))
+    return tuple(Parameter(*row) for row in material_parameters(_text_of(material)))
+
+
+@cache
+def _text_of(material: MaterialPoint) -> str:
+    """Return the name and the options as the compiled library reads them."""
+    return " ".join(
+        [material.name, *(f"{name}={value}" for name, value in asdict(material).items())]
+    )

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from .._bounds import Below, Bounds, Log, on_its_scale
-from .._core import yoshida_uemori_parameters, yoshida_uemori_response, yoshida_uemori_stress
 from .material import Material
 from .readings import Span
 
@@ -54,13 +53,11 @@ class YoshidaUemori(Material):
     array([ 200.  ,  485.77, -536.89])
     """
 
+    name = "yoshida-uemori"
+    yield_stress = "Y"
     growth: Literal["saturating", "power"] = "saturating"
     modulus: Literal["constant", "decaying"] = "constant"
     rtol: float = 1e-9
-
-    @property
-    def _compiled(self) -> tuple[Any, Any, Any]:
-        return yoshida_uemori_parameters, yoshida_uemori_stress, yoshida_uemori_response
 
     def _hardening_bounds(self, span: Span) -> Bounds:
         bounds: dict[str, Any] = {

@@ -19,29 +19,37 @@ from collections.abc import Callable, Mapping
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["chaboche_voce", "yoshida_uemori"]
+__all__ = ["stress"]
 
 Array = npt.NDArray[np.float64]
 
 
-def chaboche_voce(
-    strain: npt.ArrayLike, parameters: Mapping[str, float], *, steps: int = 100
+def stress(
+    material: str, strain: npt.ArrayLike, parameters: Mapping[str, float], *, steps: int = 100
 ) -> Array:
-    """Return the stress of :class:`curvewise.materials.ChabocheVoce` at each strain of a path.
+    """Return the stress of a material at each strain of a path.
 
     Parameters
     ----------
+    material : str
+        The name of its record, a key of :data:`curvewise.materials.MATERIALS`.
     strain : array_like, shape (n,)
         Strain [-] in the order of loading, from the unloaded state.
     parameters : mapping of str to float
-        As for the class; with Ea and xi the modulus decays, and there are as many back stresses as
-        there are C1, C2, …
+        As for the class of the material. The names tell the options: with Ea and xi, the modulus
+        decays; there are as many back stresses as there are C1, C2, …
     steps : int, default 100
-        Between two strains.
+        Number of steps between two strains. The Yoshida-Uemori model takes more steps where the
+        yield surface passes the centre of the bounding surface.
 
     Returns
     -------
     ndarray, shape (n,)
+
+    Raises
+    ------
+    KeyError
+        If there is no material of this name.
 
     Notes
     -----
@@ -49,46 +57,12 @@ def chaboche_voce(
 
     Examples
     --------
-    >>> from curvewise.reference.materials import chaboche_voce
+    >>> from curvewise.reference.materials import stress
     >>> steel = {"E": 200e3, "yield": 300.0, "Q": -50.0, "b": 8.0, "C1": 80e3, "gamma1": 400.0}
-    >>> chaboche_voce([0.001, 0.02, 0.018, -0.02], steel, steps=1000).round(2)
+    >>> stress("chaboche-voce", [0.001, 0.02, 0.018, -0.02], steel, steps=1000).round(2)
     array([ 200.  ,  493.28,   93.28, -482.81])
     """
-    return _driven(_ChabocheVoce(parameters), strain, steps)
-
-
-def yoshida_uemori(
-    strain: npt.ArrayLike, parameters: Mapping[str, float], *, steps: int = 100
-) -> Array:
-    """Return the stress of :class:`curvewise.materials.YoshidaUemori` at each strain of a path.
-
-    Parameters
-    ----------
-    strain : array_like, shape (n,)
-        Strain [-] in the order of loading, from the unloaded state.
-    parameters : mapping of str to float
-        As for the class; with Ea and xi the modulus decays, with C1 and C2 the bounding surface
-        grows by the power law.
-    steps : int, default 100
-        Between two strains, and more where the yield surface passes the bounding surface's centre.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-
-    Notes
-    -----
-    O(n steps) time.
-
-    Examples
-    --------
-    >>> from curvewise.reference.materials import yoshida_uemori
-    >>> names = ("E", "CB", "Y", "C", "K", "RSAT", "SB", "H")
-    >>> steel = dict(zip(names, (200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4)))
-    >>> yoshida_uemori([0.001, 0.03, -0.03], steel, steps=1000).round(2)
-    array([ 200.  ,  485.77, -536.89])
-    """
-    return _driven(_YoshidaUemori(parameters), strain, steps)
+    return _driven(_LAWS[material](parameters), strain, steps)
 
 
 class _Point(ABC):
@@ -123,7 +97,7 @@ class _Point(ABC):
 
 def _driven(point: _Point, strain: npt.ArrayLike, steps: int) -> Array:
     path = np.asarray(strain, dtype=np.float64)
-    stress = np.empty_like(path)
+    found = np.empty_like(path)
     s = last = 0.0
     for i, value in enumerate(path.tolist()):
         part, last = (value - last) / steps, value
@@ -138,8 +112,8 @@ def _driven(point: _Point, strain: npt.ArrayLike, steps: int) -> Array:
             while left > 0.0:
                 left -= point.flow(n, left)
             s = point.centre + n * point.radius
-        stress[i] = s
-    return stress
+        found[i] = s
+    return found
 
 
 def _runge_kutta(state: Array, h: float, rates: Callable[[Array], Array]) -> Array:
@@ -272,3 +246,9 @@ class _YoshidaUemori(_Point):
             [1.0, growth, theta_rate, beta_rate, (1.0 - c["H"]) * pushed, c["H"] * abs(pushed)]
         )
         return by_p / (1.0 + n * (theta_rate + beta_rate) / self.modulus(p))
+
+
+_LAWS: dict[str, Callable[[Mapping[str, float]], _Point]] = {
+    "chaboche-voce": _ChabocheVoce,
+    "yoshida-uemori": _YoshidaUemori,
+}

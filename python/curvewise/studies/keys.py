@@ -109,6 +109,7 @@ class Table:
     def __init__(self, source: Source, path: KeyPath, values: Any) -> None:
         self.source, self.path = source, path
         self.wrong: set[str] = set()
+        self._taken: dict[str, Any] = {}
         self._problems = len(source.problems)
         if values is None:
             values = {}
@@ -121,6 +122,24 @@ class Table:
     def is_right(self) -> bool:
         """Whether nothing has been found wrong since the table was begun."""
         return len(self.source.problems) == self._problems
+
+    def take(self, readers: Mapping[str, Callable[[Any], Any]]) -> dict[str, Any]:
+        """Return the values of keys that no dataclass describes; `read` then knows them.
+
+        Parameters
+        ----------
+        readers : mapping of str to callable
+            As for `key`, by the name of the key.
+        """
+        self._taken |= readers
+        found = {}
+        for name, read in readers.items():
+            if name in self.given:
+                try:
+                    found[name] = read(self.given[name])
+                except ValueError as error:
+                    self.problem(name, str(error))
+        return found
 
     def read(self, kind: type[T], **known: Any) -> T:
         """Return the table as the dataclass that describes its keys.
@@ -146,8 +165,10 @@ class Table:
             elif how["required"]:
                 self.problem("", f"has no {name}; give {how['required']}")
         for name in self.given:
-            if name not in keys:
-                hint = did_you_mean([name], keys) or f"; the keys here are {', '.join(keys)}"
+            if name not in keys and name not in self._taken:
+                known_keys = [*keys, *self._taken]
+                hint = did_you_mean([name], known_keys)
+                hint = hint or f"; the keys here are {', '.join(known_keys)}"
                 self.problem(name, f"is not a known key{hint}")
         return kind(**known)
 

@@ -7,8 +7,8 @@ bounds are derived from them. Cost: linear in the tests.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
-from typing import Any, TypeVar, get_args, get_type_hints
+from dataclasses import dataclass, field, replace
+from typing import Any, TypeVar
 
 from .._names import did_you_mean
 from ..calibration.problem.space import Space
@@ -19,6 +19,7 @@ from ..fitting.moduli import check_units, modulus_of
 from ..fitting.recorded_cycles import whole_record
 from ..fitting.units_of_tests import doubt_of
 from ..materials import MATERIALS, DrivenModel, Material
+from ..materials.options import material_options
 from ..solvers.cards import FORMATS
 from . import keys
 from .keys import Table, key
@@ -28,12 +29,6 @@ from .toml_source import KeyPath, Source
 __all__ = ["MaterialModel", "drive", "is_material", "read_material"]
 
 T = TypeVar("T")
-
-
-def _one_of_its_own(option: str) -> Callable[[Any], str]:
-    """Return what reads an option that is one of some words, whichever material has it."""
-    hints = [get_type_hints(kind).get(option) for kind in MATERIALS.values()]
-    return keys.choice([word for hint in hints if hint for word in get_args(hint)])
 
 
 def _cards(value: Any) -> tuple[str, ...]:
@@ -46,6 +41,8 @@ class MaterialModel:
 
     Attributes
     ----------
+    options : mapping of str to object
+        The options of the material that the file gives.
     driven : DrivenModel
         The material, driven by the study's tests.
     modulus_read : float
@@ -53,23 +50,19 @@ class MaterialModel:
     """
 
     material: str = key(keys.choice(tuple(MATERIALS)), "")
-    backstresses: int | None = key(keys.at_least(0))
-    modulus: str | None = key(_one_of_its_own("modulus"))
-    growth: str | None = key(_one_of_its_own("growth"))
     cycles: Cycles = key(keys.choice(CYCLES), "all")
     cards: tuple[str, ...] = key(_cards, ())
     accept_undetermined: bool = key(keys.flag, False)
     name: str = key(keys.text, "material")
     units: str = key(keys.text, "MPa")
+    options: Mapping[str, Any] = field(default_factory=dict)
     driven: DrivenModel[Material] | None = None
     modulus_read: float = 0.0
     beginning: str = ""
 
     def made(self) -> Material:
         """Return the material with its options."""
-        kind = MATERIALS[self.material]
-        options = {option: getattr(self, option, None) for option in _options(kind)}
-        return kind(**{name: value for name, value in options.items() if value is not None})
+        return MATERIALS[self.material](**self.options)
 
 
 def is_material(given: Any) -> bool:
@@ -83,13 +76,21 @@ def read_material(source: Source, path: KeyPath, given: Mapping[str, Any]) -> Ma
     if "command" in given:
         table.problem("material", "stands beside command; give one of them, a solver or a material")
         return None
-    model = table.read(MaterialModel)
+    options = material_options(MATERIALS.values())
+    chosen = table.take(
+        {
+            option.name: keys.choice(option.choices) if option.choices else keys.at_least(0)
+            for option in options.values()
+        }
+    )
+    model = table.read(MaterialModel, options=chosen)
     if not table.is_right:
         return None
-    own = _options(MATERIALS[model.material])
-    for option in {name: 0 for kind in MATERIALS.values() for name in _options(kind)}:
-        if option in given and option not in own:
-            table.problem(option, f"is no option of {model.material} (its own: {', '.join(own)})")
+    own = [option.name for option in options.values() if model.material in option.materials]
+    for option in chosen:
+        if option not in own:
+            listed = ", ".join(own) or "none"
+            table.problem(option, f"is no option of {model.material} (its own: {listed})")
     if table.is_right:
         try:
             _ = model.made().names
@@ -143,7 +144,7 @@ def drive(
     bounds = {**material.bounds_from(list(map(whole_record, given_tests))), **given}
     try:
         Space(bounds)
-        check_units(given, given_tests, model.units)
+        check_units(given, given_tests, model.units, material.yield_stress)
     except ValueError as error:
         source.problem(("parameters",), f"{error} (the others are read off the tests)")
     source.raise_problems()
@@ -156,8 +157,3 @@ def drive(
         replace(test, experiment=NamedCurve(curve, axes, test.name)) for test, curve in compared
     )
     return made, tuple(named), bounds
-
-
-def _options(kind: type[Material]) -> list[str]:
-    """Return the options of a material that a file may give."""
-    return [one.name for one in fields(kind) if one.name in MaterialModel.__dataclass_fields__]

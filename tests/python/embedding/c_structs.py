@@ -79,8 +79,6 @@ Batch = options("Batch", ("workers", c_ssize_t), ("cutoff", c_double))
 Search = options(
     "Search", ("workers", c_ssize_t), ("sort_results", c_int), ("with_distances", c_int)
 )
-Chaboche = sized("Chaboche", ("backstresses", c_int), ("modulus", c_int))
-Yoshida = sized("Yoshida", ("growth", c_int), ("modulus", c_int), ("rtol", c_double))
 Comparison = sized("Comparison", *((x, c_double) for x in MEASURES[:5]))
 PcmPlace = sized(
     "PcmPlace",

@@ -123,15 +123,15 @@ contains
     subroutine of_materials()
         real(real64), parameter :: steel(6) = [200e3_real64, 250.0_real64, 0.0_real64, 1.0_real64, &
             60e3_real64, 300.0_real64]
-        type(chaboche_voce), parameter :: one = chaboche_voce(backstresses=1)
+        character(*), parameter :: one = 'chaboche-voce backstresses=1'
         real(real64), allocatable :: strain(:), stress(:), slopes(:, :)
-        call chaboche_voce_response(one, steel, [300.0_real64, -300.0_real64], strain)
+        call material_response(one, steel, [300.0_real64, -300.0_real64], strain)
         call show('strain', strain(2))
-        call chaboche_voce_response(one, steel, [300.0_real64, -0.01_real64], stress, &
+        call material_response(one, steel, [300.0_real64, -0.01_real64], stress, &
             [.true., .false.], slopes)
         call show('stress', stress(2))
         call show('by_yield', slopes(2, 2))
-        call chaboche_voce_stress(one, steel, [0.01_real64], stress)
+        call material_stress(one, steel, [0.01_real64], stress)
         call show('driven', stress(1))
     end subroutine
 

@@ -19,14 +19,12 @@ from c_structs import (
     OK,
     Area,
     Batch,
-    Chaboche,
     Curve,
     CurveLength,
     Dtw,
     Error,
     Frechet,
     Pcm,
-    Yoshida,
     curves,
     doubles,
     view,
@@ -35,6 +33,7 @@ from programs import MARKS, run
 
 import curvewise
 from curvewise._options import CoordinateMetric, Spacing
+from curvewise.materials import MATERIALS as MATERIALS_OF_PYTHON
 from curvewise.materials import ChabocheVoce, YoshidaUemori
 
 pytestmark = MARKS
@@ -258,31 +257,30 @@ def test_batches_take_the_options_of_their_measure(library) -> None:
 
 
 MATERIALS = [
-    (None, ChabocheVoce(), (200e3, 300.0, -50.0, 8.0, 80e3, 400.0, 5e3, 20.0)),
+    ("chaboche-voce", ChabocheVoce(), (200e3, 300.0, -50.0, 8.0, 80e3, 400.0, 5e3, 20.0)),
     (
-        Chaboche(1, 1),
+        "chaboche-voce backstresses=1 modulus=decaying",
         ChabocheVoce(1, "decaying"),
         (200e3, 160e3, 30.0, 300.0, -50.0, 8.0, 80e3, 400.0),
     ),
-    (None, YoshidaUemori(), (200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4)),
+    ("yoshida-uemori", YoshidaUemori(), (200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4)),
     (
-        Yoshida(1, 0, 1e-6),
+        "  yoshida-uemori rtol=1e-6  growth=power ",
         YoshidaUemori(growth="power", rtol=1e-6),
         (200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4, 0.01, 0.3),
     ),
 ]
 
 
-def driven(library, material, options, parameters, strain, *, slopes=None, stress=None, n=None):
+def driven(library, text, parameters, strain, *, slopes=None, stress=None, n=None):
     """Return status, message and stresses of a material of C."""
-    kind = "chaboche_voce" if isinstance(material, ChabocheVoce) else "yoshida_uemori"
     stress, error = np.full(len(strain), math.nan) if stress is None else stress, Error()
     pointers = [
         None if array is None else array.ctypes.data_as(POINTER(c_double))
         for array in (np.array(parameters), np.asarray(strain), stress, slopes)
     ]
-    status = getattr(library, f"curvewise_{kind}_stress")(
-        None if options is None else byref(options),
+    status = library.curvewise_material_stress(
+        text.encode(),
         pointers[0],
         c_ssize_t(len(parameters)),
         pointers[1],
@@ -293,32 +291,29 @@ def driven(library, material, options, parameters, strain, *, slopes=None, stres
     return status, error.message.decode(), stress
 
 
-@pytest.mark.parametrize(("options", "material", "constants"), MATERIALS)
-def test_materials(options, material, constants, library) -> None:
+@pytest.mark.parametrize(("text", "material", "constants"), MATERIALS)
+def test_materials(text, material, constants, library) -> None:
     strain = np.array([0.001, 0.02, 0.018, -0.02, 0.03])
     named = dict(zip(material.names, constants, strict=True))
     expected, slopes = material.stress_and_slopes(strain, named)
     found = np.full(slopes.shape, math.nan)
-    assert driven(library, material, options, constants, strain, slopes=found)[:2] == (OK, "")
+    assert driven(library, text, constants, strain, slopes=found)[:2] == (OK, "")
     np.testing.assert_array_equal(found, slopes)
-    np.testing.assert_array_equal(
-        driven(library, material, options, constants, strain)[2], expected
-    )
+    np.testing.assert_array_equal(driven(library, text, constants, strain)[2], expected)
 
 
-@pytest.mark.parametrize(("options", "material", "constants"), MATERIALS)
-def test_response_to_stresses(options, material, constants, library) -> None:
-    kind = "chaboche_voce" if isinstance(material, ChabocheVoce) else "yoshida_uemori"
+@pytest.mark.parametrize(("text", "material", "constants"), MATERIALS)
+def test_response_to_stresses(text, material, constants, library) -> None:
     named = dict(zip(material.names, constants, strict=True))
     parameters, count = np.array(constants), c_ssize_t(len(constants))
-    respond, error = getattr(library, f"curvewise_{kind}_response"), Error()
+    respond, error = library.curvewise_material_response, Error()
     for by_stress in ([1, 0, 7, 0], None):
         given = np.array([350.0, 0.02, -300.0, -0.01] if by_stress else [350.0, 400.0, -350.0, 0.0])
         flags = None if by_stress is None else (c_int * 4)(*by_stress)
         answer, slopes = np.full(4, math.nan), np.full((4, len(constants)), math.nan)
         for place in (None, doubles(slopes)):
             status = respond(
-                options and byref(options),
+                text.encode(),
                 doubles(parameters),
                 count,
                 doubles(given),
@@ -334,12 +329,14 @@ def test_response_to_stresses(options, material, constants, library) -> None:
         )
         np.testing.assert_array_equal(answer, expected[0])
         np.testing.assert_array_equal(slopes, expected[1])
-    none = respond(None, doubles(parameters), count, None, None, c_ssize_t(-1), None, None, None)
+    none = respond(
+        text.encode(), doubles(parameters), count, None, None, c_ssize_t(-1), None, None, None
+    )
     assert none == INVALID_ARGUMENT
 
 
 def test_materials_refused(library) -> None:
-    _, material, constants = MATERIALS[0]
+    text, _, constants = MATERIALS[0]
     strain = np.array([0.001, math.nan])
 
     def refused(*given, **others) -> str:
@@ -348,19 +345,30 @@ def test_materials_refused(library) -> None:
         assert np.isnan(stress).all()
         return message
 
-    assert refused(material, None, constants, strain) == "strain[1] is nan; strains must be finite"
+    assert refused(text, constants, strain) == "strain[1] is nan; strains must be finite"
     expected = "there are 3 parameters; the material has 8: E, yield, Q, b, C1, gamma1, C2, gamma2"
-    assert refused(material, None, constants[:3], strain) == expected
-    message = refused(material, Chaboche(2, 5), constants, strain)
-    assert message == "unknown modulus 5; choose from 0 to 1"
-    assert "backstresses is -1" in refused(material, Chaboche(-1, 0), constants, strain)
-    assert "there are -2 strains" in refused(material, None, constants, strain, n=-2)
-    assert refused(MATERIALS[2][1], Yoshida(2, 0, 1e-9), MATERIALS[2][2], strain) == (
-        "unknown growth 2; choose from 0 to 1"
-    )
-    function, error = library.curvewise_chaboche_voce_stress, Error()
-    none = function(None, None, c_ssize_t(8), None, c_ssize_t(0), None, None, byref(error))
-    assert (none, error.message) == (INVALID_ARGUMENT, b"parameters is a null pointer")
+    assert refused(text, constants[:3], strain) == expected
+    assert "there are -2 strains" in refused(text, constants, strain, n=-2)
+    for wrong, message in {
+        "chaboche": f"unknown material 'chaboche'; choose from {', '.join(MATERIALS_OF_PYTHON)}",
+        "": f"unknown material ''; choose from {', '.join(MATERIALS_OF_PYTHON)}",
+        f"{text} modulus=5": "unknown modulus '5'; choose from constant, decaying",
+        f"{text} modulus": "unknown modulus ''; choose from constant, decaying",
+        f"{text} backstresses=-1": "backstresses is -1; give a whole number from 0 to 99",
+        f"{text} backstresses=2.5": "backstresses is 2.5; give a whole number",
+        f"{text} backstresses=": "backstresses is ; give a whole number",
+        f"{text} growth=power": "unknown option 'growth' of chaboche-voce; choose from "
+        "backstresses, modulus",
+        "yoshida-uemori growth=2": "unknown growth '2'; choose from saturating, power",
+        "yoshida-uemori rtol=1e-6x": "rtol is 1e-6x; give a number",
+        "yoshida-uemori rtol=0.5": "rtol is 0.5; give a number from 1e-12 to 1e-3",
+    }.items():
+        numbers = MATERIALS[2][2] if wrong.startswith("yoshida") else constants
+        assert refused(wrong, numbers, [0.0]) == message
+    function, error = library.curvewise_material_stress, Error()
+    for given, missing in ((text.encode(), b"parameters"), (None, b"material")):
+        none = function(given, None, c_ssize_t(8), None, c_ssize_t(0), None, None, byref(error))
+        assert (none, error.message) == (INVALID_ARGUMENT, missing + b" is a null pointer")
 
 
 def test_version(library) -> None:

@@ -49,15 +49,16 @@ def test_only_a_modulus_and_a_yield_stress_are_doubtful_and_only_by_the_rule(
     known = SimpleNamespace(
         parameters={name: value}, intervals={name: interval}, determined={name: False}, level=0.95
     )
-    doubts = refusals_of(known, {name: (3.2, 200.0)}, "ksi")  # type: ignore[arg-type]
+    bounds, yield_stress = {name: (3.2, 200.0)}, "Y" if name == "Y" else "yield"
+    doubts = refusals_of(known, bounds, "ksi", yield_stress)  # type: ignore[arg-type]
     assert list(doubts) == ([] if reason is None else [name])
     assert reason is None or reason in doubts[name]
     known.determined[name] = True
-    assert refusals_of(known, {name: (3.2, 200.0)}, "ksi") == {}  # type: ignore[arg-type]
+    assert refusals_of(known, {name: (3.2, 200.0)}, "ksi", "Y") == {}  # type: ignore[arg-type]
 
 
 def test_what_is_not_searched_for_or_not_known_is_no_doubt(fit: MaterialFit) -> None:
-    assert refusals_of(None, {}, "MPa") == {}
+    assert refusals_of(None, {}, "MPa", "yield") == {}
     assert list(fit.doubtful) == ["yield"]  # E is given
 
 

@@ -8,6 +8,7 @@ import pickle
 import numpy as np
 import pandas
 import pytest
+from metals import METALS
 
 import curvewise
 from curvewise.calibration import identify
@@ -17,15 +18,8 @@ STEEL = {"E": 200e3, "yield": 300.0, "Q": -50.0, "b": 8.0, "C1": 80e3, "gamma1":
 STEEL |= {"C2": 5e3, "gamma2": 20.0}
 SHEET = {"E": 200e3, "CB": 420.0, "Y": 300.0, "C": 300.0, "K": 12.0, "RSAT": 150.0, "SB": 120.0}
 SHEET |= {"H": 0.4}
-DECAY = {"Ea": 160e3, "xi": 30.0}
 POWER = {"C1": 0.01, "C2": 0.3}
-MATERIALS = [
-    (ChabocheVoce(), STEEL),
-    (ChabocheVoce(modulus="decaying"), STEEL | DECAY),
-    (YoshidaUemori(), SHEET),
-    (YoshidaUemori(growth="power", modulus="decaying"), SHEET | DECAY | POWER),
-]
-each_material = pytest.mark.parametrize(("material", "constants"), MATERIALS)
+each_material = pytest.mark.parametrize(("material", "constants"), METALS)
 
 
 def path(*turns: float, points: int = 53) -> np.ndarray:

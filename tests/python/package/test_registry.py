@@ -21,9 +21,11 @@ import pytest
 
 import curvewise
 from curvewise import _core, _options, measures, plotting, reference
-from curvewise.materials import ChabocheVoce, Material, YoshidaUemori
+from curvewise.materials import MATERIALS
+from curvewise.materials.options import material_options
 from curvewise.measures.edit_distances import EditDistance
 from curvewise.measures.registry import MEASURES, PRESETS, WARPINGS, MeasureName
+from curvewise.solvers.cards import FORMATS
 
 ROOT = next(folder for folder in Path(__file__).parents if (folder / "pyproject.toml").is_file())
 C_HEADER = ROOT / "cpp" / "include" / "curvewise" / "c_options.h"
@@ -108,29 +110,23 @@ def test_every_layer_has_the_same_choices_in_the_same_order(option: str) -> None
     assert fortran_choices(prefix, named) == named
 
 
-@pytest.mark.parametrize("kind", [ChabocheVoce, YoshidaUemori])
-def test_every_layer_has_the_same_materials(kind: type[Material]) -> None:
-    name = {ChabocheVoce: "chaboche_voce", YoshidaUemori: "yoshida_uemori"}[kind]
-    defaults = {one.name: str(getattr(kind(), one.name)) for one in dataclasses.fields(kind)}
-    text = re.sub(r"/\*.*?\*/", "", C_HEADER.read_text(encoding="utf-8"), flags=re.DOTALL)
-    struct = re.search(rf"struct curvewise_{name} {{(.*?)}}", text, re.DOTALL)
-    values = re.search(rf"CURVEWISE_{name.upper()}_DEFAULTS[\s\\]*{{(.*?)}}", text, re.DOTALL)
-    assert struct
-    assert values
-    assert re.findall(r"(\w+);", struct[1]) == ["size", *defaults]
-    size, *constants = (bare(value) for value in values[1].replace("\\\n", "").split(","))
-    assert size == f"sizeof({name})"
-    assert [value.replace("1e-9", "1e-09") for value in constants] == list(defaults.values())
-    source = re.sub(r"!.*", "", FORTRAN.read_text(encoding="utf-8"))
-    body = re.search(rf"public :: {name}\n(.*?)end type", source, re.DOTALL)
-    assert body
-    in_fortran = dict(re.findall(r":: (\w+) = (\S+)", body[1]))
-    assert list(in_fortran) == list(defaults)
-    for option, hint in get_type_hints(kind).items():
-        if choices := list(get_args(hint)):
-            assert c_choices(option, "") == choices
-            assert fortran_choices(f"{option}_", choices) == choices
-            assert in_fortran[option] == f"{option}_{defaults[option]}"
+def test_python_has_every_material_of_the_library() -> None:
+    """C and Fortran name a material by a text, which reads the library's list."""
+    known = _core.materials()
+    assert list(MATERIALS) == list(known)
+    for name, kind in MATERIALS.items():
+        defaults = {one.name: one.default for one in dataclasses.fields(kind)}
+        assert (kind.name, defaults) == (name, known[name])
+        assert {kind.yield_stress, *kind.isotropic} - {""} <= set(kind().names)
+        for option in material_options([kind]).values():
+            for choice in option.choices:
+                assert kind(**{option.name: choice}).names
+    for form in FORMATS.values():
+        assert set(form.laws) <= set(known)
+        for name, law in form.laws.items():
+            options = material_options([MATERIALS[name]])
+            for option, choices in law.choices.items():
+                assert set(choices) <= set(options[option].choices)
 
 
 @pytest.mark.parametrize("name", MEASURES)

@@ -52,7 +52,22 @@ def card_text(content: CardContent, solver: str) -> str:
             f"name is {content.name!r}; all solvers take a letter, and then up to 69 letters, "
             "digits and underscores"
         )
-    return FORMATS[solver].text(content)
+    form = FORMATS[solver]
+    if lack := form.lack(content):
+        raise ValueError(f"{form.title} has no {lack}; {_remedy(content)}")
+    return form.text(content)
+
+
+def _remedy(content: CardContent) -> str:
+    """Return which solvers have a material, or what to do if none has it."""
+    having = [form for form in FORMATS.values() if content.material in form.laws]
+    whole = [form for form in having if not form.lack(content)]
+    if whole:
+        listed = (f"{form.title} ({form.laws[content.material].keywords})" for form in whole)
+        return f"fit another material, or write the card of {' or '.join(listed)}"
+    if having:
+        return "fit with the default of this option"
+    return "fit another material, or write a user material"
 
 
 def read_card(path: str | os.PathLike[str], *, name: str | None = None) -> SolverCard:

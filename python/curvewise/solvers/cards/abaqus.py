@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .content import CardContent, CardFormat, SolverCard, as_field
+from .content import CardContent, CardFormat, CardLaw, SolverCard, as_field
 from .keyword_file import Block
 
 __all__ = ["FORMAT", "card_of"]
@@ -75,11 +75,13 @@ FORMAT = CardFormat(
     solver="abaqus",
     title="Abaqus",
     comment="**",
-    sources={
-        "ChabocheVoce": "Abaqus Keywords Guide, *PLASTIC and *CYCLIC HARDENING; Materials Guide, "
-        "Models for metals subjected to cyclic loading"
+    laws={
+        "chaboche-voce": CardLaw(
+            "*PLASTIC, HARDENING=COMBINED",
+            "Abaqus Keywords Guide, *PLASTIC and *CYCLIC HARDENING; Materials Guide, "
+            "Models for metals subjected to cyclic loading",
+            _write,
+        )
     },
-    write=_write,
-    lacks={"YoshidaUemori": "it needs a user subroutine there; LS-DYNA has it as *MAT_125"},
     width=_WIDTH,
 )

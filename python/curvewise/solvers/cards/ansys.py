@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .content import CardContent, CardFormat
+from .content import CardContent, CardFormat, CardLaw
 
 __all__ = ["FORMAT"]
 
@@ -43,11 +43,13 @@ FORMAT = CardFormat(
     solver="ansys",
     title="Ansys",
     comment="!",
-    sources={
-        "ChabocheVoce": "Ansys Mechanical APDL Material Reference, Nonlinear kinematic hardening "
-        "(TB,CHABOCHE) and Voce law (TB,NLISO,,,,VOCE)"
+    laws={
+        "chaboche-voce": CardLaw(
+            "TB,CHABOCHE",
+            "Ansys Mechanical APDL Material Reference, Nonlinear kinematic hardening "
+            "(TB,CHABOCHE) and Voce law (TB,NLISO,,,,VOCE)",
+            _write,
+        )
     },
-    write=_write,
-    lacks={"YoshidaUemori": "it needs a user material there; LS-DYNA has it as *MAT_125"},
     suffix=".mac",
 )

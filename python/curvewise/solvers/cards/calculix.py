@@ -17,7 +17,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .content import CardContent, CardFormat, SolverCard, TabulatedLayer, as_field
+from .content import CardContent, CardFormat, CardLaw, SolverCard, TabulatedLayer, as_field
 from .keyword_file import Block
 from .overlay import Path, best_overlay, with_increments
 
@@ -155,13 +155,12 @@ FORMAT = CardFormat(
     solver="calculix",
     title="CalculiX",
     comment="**",
-    sources={
-        "ChabocheVoce": "CalculiX CrunchiX User's Manual 2.20, *PLASTIC and *CYCLIC HARDENING"
-    },
-    write=_write,
-    lacks={
-        "YoshidaUemori": "it needs a user material there; fit ChabocheVoce for a card, or use "
-        "LS-DYNA's *MAT_125"
+    laws={
+        "chaboche-voce": CardLaw(
+            "*PLASTIC, HARDENING=COMBINED",
+            "CalculiX CrunchiX User's Manual 2.20, *PLASTIC and *CYCLIC HARDENING",
+            _write,
+        )
     },
     width=_WIDTH,
 )

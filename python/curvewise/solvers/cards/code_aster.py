@@ -8,7 +8,7 @@ written as the sum of yield and Q without loss of digits.
 
 from __future__ import annotations
 
-from .content import CardContent, CardFormat
+from .content import CardContent, CardFormat, CardLaw
 
 __all__ = ["FORMAT"]
 
@@ -39,11 +39,13 @@ FORMAT = CardFormat(
     solver="code_aster",
     title="Code_Aster",
     comment="#",
-    sources={
-        "ChabocheVoce": "Code_Aster U4.43.01, DEFI_MATERIAU, CIN1_CHAB and CIN2_CHAB; R5.03.04, "
-        "Chaboche's elasto-viscoplastic laws"
+    laws={
+        "chaboche-voce": CardLaw(
+            "CIN1_CHAB, CIN2_CHAB",
+            "Code_Aster U4.43.01, DEFI_MATERIAU, CIN1_CHAB and CIN2_CHAB; R5.03.04, "
+            "Chaboche's elasto-viscoplastic laws",
+            _write,
+        )
     },
-    write=_write,
-    lacks={"YoshidaUemori": "it needs a user material there; LS-DYNA has it as *MAT_125"},
     suffix=".comm",
 )

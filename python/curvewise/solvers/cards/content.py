@@ -10,11 +10,11 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ...curves.inputs import Array
 
-__all__ = ["CardContent", "CardFormat", "SolverCard", "TabulatedLayer", "as_field"]
+__all__ = ["CardContent", "CardFormat", "CardLaw", "SolverCard", "TabulatedLayer", "as_field"]
 
 _LINE = 100  # characters of a comment
 
@@ -25,12 +25,14 @@ class CardContent:
 
     Attributes
     ----------
+    material : str
+        The name of the material's record, such as "chaboche-voce".
     model : str
-        "ChabocheVoce" or "YoshidaUemori".
+        The name of its class.
     described : str
         The material with its options, as Python prints it.
-    options : mapping of str to object
-        The material's options.
+    choices : mapping of str to str
+        Options that choose among laws, and differ from their defaults.
     parameters : dict of str to float
         The parameters, in the material's order.
     units : dict of str to str
@@ -53,9 +55,10 @@ class CardContent:
         Lines of the comments: how far the model is from the tests, and which numbers to use.
     """
 
+    material: str
     model: str
     described: str
-    options: Mapping[str, object]
+    choices: Mapping[str, str]
     parameters: dict[str, float]
     units: Mapping[str, str]
     meanings: Mapping[str, str]
@@ -124,6 +127,29 @@ class SolverCard:
 
 
 @dataclass(frozen=True)
+class CardLaw:
+    """How a solver's card is written for one material that the solver has.
+
+    Attributes
+    ----------
+    keywords : str
+        What the solver calls the material.
+    source : str
+        Where the manual has these keywords.
+    write : callable
+        From the content to the lines below the comments; a ValueError where these numbers cannot be
+        written.
+    choices : mapping of str to tuple of str
+        Values of options that the solver has in addition to the defaults.
+    """
+
+    keywords: str
+    source: str
+    write: Callable[[CardContent], list[str]]
+    choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class CardFormat:
     """How one solver's cards are written, and read where that is possible.
 
@@ -135,15 +161,8 @@ class CardFormat:
         As the solver's makers write it.
     comment : str
         What a line of comment begins with.
-    sources : mapping of str to str
-        Where the manual has the keywords, for each model that the solver has.
-    write : callable
-        From the content to the lines below the comments; a ValueError where this model with these
-        numbers cannot be written.
-    lacks : mapping of str to str
-        Of each model that the solver does not have, what to do.
-    decaying : frozenset of str
-        Models whose modulus can decay.
+    laws : mapping of str to CardLaw
+        The materials that the solver has, by the names of their records.
     width : int or None
         Characters of a field, where they are limited.
     suffix : str
@@ -153,31 +172,32 @@ class CardFormat:
     solver: str
     title: str
     comment: str
-    sources: Mapping[str, str]
-    write: Callable[[CardContent], list[str]]
-    lacks: Mapping[str, str]
-    decaying: frozenset[str] = frozenset()
+    laws: Mapping[str, CardLaw]
     width: int | None = None
     suffix: str = ".inp"
 
+    def lack(self, content: CardContent) -> str:
+        """Return what the solver does not have of a material; empty if it has all."""
+        law = self.laws.get(content.material)
+        if law is None:
+            return content.model
+        for option, choice in content.choices.items():
+            if choice not in law.choices.get(option, ()):
+                return f'{content.model} with {option}="{choice}"'
+        return ""
+
     def text(self, content: CardContent) -> str:
-        """Return the card, or raise a ValueError that says what the solver does not have."""
-        if content.model not in self.sources:
-            raise ValueError(f"{self.title} has no {content.model}; {self.lacks[content.model]}")
-        if content.options["modulus"] == "decaying" and content.model not in self.decaying:
-            raise ValueError(
-                f"{self.title} has no {content.model} whose modulus decays with plastic strain; "
-                'fit with modulus="constant" (LS-DYNA has it for YoshidaUemori)'
-            )
-        body = self.write(content)
-        head = [f"{self.comment} {line}" for line in self._head(content)]
+        """Return the card of a material that the solver has."""
+        law = self.laws[content.material]
+        body = law.write(content)
+        head = [f"{self.comment} {line}" for line in self._head(content, law)]
         return "\n".join([*head, *body, ""])
 
-    def _head(self, content: CardContent) -> list[str]:
+    def _head(self, content: CardContent, law: CardLaw) -> list[str]:
         lines = [
             f"curvewise card for {self.title}: {content.name}",
             f"{content.described}, fitted {content.date}",
-            f"source: {self.sources[content.model]}",
+            f"source: {law.source}",
         ]
         for line in content.verdict:  # in ASCII; with a bar, for those who read the lines below
             text = line.replace("±", "+-")

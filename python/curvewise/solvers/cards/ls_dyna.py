@@ -12,21 +12,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .content import CardContent, CardFormat, as_field
+from .content import CardContent, CardFormat, CardLaw, as_field
 
 __all__ = ["FORMAT"]
 
 _WIDTH = 20
 
 
-def _write(content: CardContent) -> list[str]:
-    return (_yoshida if content.model == "YoshidaUemori" else _chaboche)(content)
-
-
 def _yoshida(content: CardContent) -> list[str]:
     p = content.parameters
     first: list[str | float] = ["1", "&density", p["E"], content.poisson, 1.0, "0", "0"]
-    decays, power = content.options["modulus"] == "decaying", content.options["growth"] == "power"
+    decays, power = "xi" in p, "C2" in p
     return [
         *_title("KINEMATIC_HARDENING_TRANSVERSELY_ANISOTROPIC", content),
         *_card("MID RO E PR R HCLID OPT", first),
@@ -96,15 +92,20 @@ FORMAT = CardFormat(
     solver="ls-dyna",
     title="LS-DYNA",
     comment="$",
-    sources={
-        "YoshidaUemori": "LS-DYNA Keyword User's Manual, Volume II, "
-        "*MAT_KINEMATIC_HARDENING_TRANSVERSELY_ANISOTROPIC (*MAT_125)",
-        "ChabocheVoce": "LS-DYNA Keyword User's Manual, Volume II, *MAT_ANISOTROPIC_VISCOPLASTIC "
-        "(*MAT_103)",
+    laws={
+        "yoshida-uemori": CardLaw(
+            "*MAT_125",
+            "LS-DYNA Keyword User's Manual, Volume II, "
+            "*MAT_KINEMATIC_HARDENING_TRANSVERSELY_ANISOTROPIC (*MAT_125)",
+            _yoshida,
+            {"growth": ("power",), "modulus": ("decaying",)},
+        ),
+        "chaboche-voce": CardLaw(
+            "*MAT_103",
+            "LS-DYNA Keyword User's Manual, Volume II, *MAT_ANISOTROPIC_VISCOPLASTIC (*MAT_103)",
+            _chaboche,
+        ),
     },
-    write=_write,
-    lacks={},
-    decaying=frozenset({"YoshidaUemori"}),
     width=_WIDTH,
     suffix=".k",
 )

@@ -7,7 +7,7 @@ rule ("Linear" without slope). The radii of several rules add up, so Q is writte
 
 from __future__ import annotations
 
-from .content import CardContent, CardFormat
+from .content import CardContent, CardFormat, CardLaw
 
 __all__ = ["FORMAT"]
 
@@ -44,11 +44,13 @@ FORMAT = CardFormat(
     solver="mfront",
     title="MFront",
     comment="//",
-    sources={
-        "ChabocheVoce": "TFEL/MFront, Description of the StandardElastoViscoPlasticity brick: "
-        "Linear, Voce, Prager, Armstrong-Frederick"
+    laws={
+        "chaboche-voce": CardLaw(
+            "StandardElastoViscoPlasticity",
+            "TFEL/MFront, Description of the StandardElastoViscoPlasticity brick: "
+            "Linear, Voce, Prager, Armstrong-Frederick",
+            _write,
+        )
     },
-    write=_write,
-    lacks={"YoshidaUemori": "its brick has no bounding surface; LS-DYNA has it as *MAT_125"},
     suffix=".mfront",
 )

@@ -1,0 +1,23 @@
+"""Each kind of material with numbers of a metal, for the tests of all materials."""
+
+from __future__ import annotations
+
+from curvewise.materials import ChabocheVoce, Material, YoshidaUemori
+
+_STEEL = {"E": 200e3, "yield": 300.0, "Q": 50.0, "b": 8.0}
+_BACK = {"C1": 80e3, "gamma1": 400.0, "C2": 5e3, "gamma2": 20.0}
+_SHEET = {"E": 200e3, "CB": 420.0, "Y": 300.0, "C": 300.0, "K": 12.0, "RSAT": 150.0, "SB": 120.0}
+_SHEET |= {"H": 0.4}
+_DECAY = {"Ea": 160e3, "xi": 60.0}
+
+# The materials reach 430 MPa.
+METALS: list[tuple[Material, dict[str, float]]] = [
+    (ChabocheVoce(0), _STEEL | {"Q": 300.0}),
+    (ChabocheVoce(), _STEEL | _BACK),
+    (ChabocheVoce(modulus="decaying"), _STEEL | _BACK | _DECAY | {"Q": -50.0, "C2": 9e3}),
+    (YoshidaUemori(), _SHEET),
+    (
+        YoshidaUemori(growth="power", modulus="decaying"),
+        _SHEET | _DECAY | {"C1": 0.01, "C2": 0.3},
+    ),
+]
