@@ -18,8 +18,12 @@
 /// (Yoshida & Uemori, Int. J. Plasticity 18, 2002; uniaxial, with the constants of *MAT_125 of
 /// LS-DYNA). Equations without a closed form are integrated to a stated tolerance.
 ///
-/// Young's modulus is constant or decays with the plastic strain (Yoshida, Uemori & Fujiwara, Int.
-/// J. Plasticity 18, 2002): ds = E(p) de_e with E(p) = E - (E - Ea)(1 - exp(-xi p)).
+/// Swift: isotropic hardening by a power law, |s| <= K (e0 + p)^n (Swift, J. Mechanics and Physics
+/// of Solids 1, 1952). Exact for steps of any length.
+///
+/// Young's modulus of the first two is constant or decays with the plastic strain (Yoshida, Uemori
+/// & Fujiwara, Int. J. Plasticity 18, 2002): ds = E(p) de_e with E(p) = E - (E - Ea)(1 - exp(-xi
+/// p)).
 ///
 /// Derivatives are those of the computed stress, by dual numbers in the same pass. A step that just
 /// reaches the yield surface has a kink; the derivatives there are those of one side.
@@ -87,6 +91,11 @@ struct YoshidaUemori {
     double rtol = 1e-9;
 };
 
+/// Parameters, in order: E, K, e0, n.
+struct Swift {
+    static constexpr const char* material = "swift";
+};
+
 /// Calls visit(name, value) for each option.
 template <class Visit>
 void visit_options(ChabocheVoce& material, Visit&& visit) {
@@ -100,9 +109,12 @@ void visit_options(YoshidaUemori& material, Visit&& visit) {
     visit("rtol", material.rtol);
 }
 
+template <class Visit>
+void visit_options(Swift& /*material*/, Visit&& /*visit*/) {}
+
 /// The list of materials: one of them, chosen by the type of its options. C, Fortran and Python
 /// have every material that is added here.
-using Material = std::variant<ChabocheVoce, YoshidaUemori>;
+using Material = std::variant<ChabocheVoce, YoshidaUemori, Swift>;
 
 /// Calls visit(material), with the default options of every material in the order of the list.
 template <class Visit>

@@ -12,10 +12,21 @@ from .chaboche_voce import ChabocheVoce
 from .driven_model import DrivenModel
 from .material import Material
 from .point import Parameter
+from .swift import Swift
 from .yoshida_uemori import YoshidaUemori
 
-__all__ = ["MATERIALS", "ChabocheVoce", "DrivenModel", "Material", "Parameter", "YoshidaUemori"]
+__all__ = [
+    "MATERIALS",
+    "ChabocheVoce",
+    "DrivenModel",
+    "Material",
+    "Parameter",
+    "Swift",
+    "YoshidaUemori",
+]
 __dir__ = names_alone(__all__)
 
-MATERIALS: dict[str, type[Material]] = {kind.name: kind for kind in (ChabocheVoce, YoshidaUemori)}
+MATERIALS: dict[str, type[Material]] = {
+    kind.name: kind for kind in (ChabocheVoce, YoshidaUemori, Swift)
+}
 """The materials by the names that commands and studies call them by."""

@@ -248,7 +248,36 @@ class _YoshidaUemori(_Point):
         return by_p / (1.0 + n * (theta_rate + beta_rate) / self.modulus(p))
 
 
+class _Swift(_Point):
+    """The state is p."""
+
+    def __init__(self, constants: Mapping[str, float]) -> None:
+        super().__init__(constants)
+        self.state = np.zeros(1)
+
+    @property
+    def centre(self) -> float:
+        return 0.0
+
+    @property
+    def radius(self) -> float:
+        c = self.constants
+        return float(c["K"] * (c["e0"] + self.state[0]) ** c["n"])
+
+    def flow(self, n: float, left: float) -> float:
+        c = self.constants
+
+        def rate(state: Array) -> Array:
+            slope = c["K"] * c["n"] * (c["e0"] + state) ** (c["n"] - 1.0)
+            found: Array = 1.0 / (1.0 + slope / c["E"])
+            return found
+
+        self.state = _runge_kutta(self.state, left, rate)
+        return left
+
+
 _LAWS: dict[str, Callable[[Mapping[str, float]], _Point]] = {
     "chaboche-voce": _ChabocheVoce,
     "yoshida-uemori": _YoshidaUemori,
+    "swift": _Swift,
 }

@@ -3,6 +3,7 @@
 Its rules are X = 2/3 C a with da = d(eps_p) - D a dp for Armstrong and Frederick, and Prager
 without recall. Voce's radius is R = Rinf + (R0 - Rinf) exp(-b p). The yield stress is a separate
 rule ("Linear" without slope). The radii of several rules add up, so Q is written unchanged.
+Swift's radius is R0 ((p + p0) / p0)^n.
 """
 
 from __future__ import annotations
@@ -24,6 +25,19 @@ def _write(content: CardContent) -> list[str]:
             if gamma
             else f'kinematic_hardening : "Prager" {{C : {C!r}}}'
         )
+    return _behaviour(content, rules)
+
+
+def _swift(content: CardContent) -> list[str]:
+    p = content.parameters
+    radius = repr(p["K"] * p["e0"] ** p["n"])
+    numbers = f"R0 : {radius}, p0 : {p['e0']!r}, n : {p['n']!r}"
+    lines = _behaviour(content, [f'isotropic_hardening : "Swift" {{{numbers}}}'])
+    return ["// R0 = K e0^n, which is rounded", *lines]
+
+
+def _behaviour(content: CardContent, rules: list[str]) -> list[str]:
+    p = content.parameters
     elastic = f"young_modulus : {p['E']!r}, poisson_ratio : {content.poisson!r}"
     return [
         "@DSL Implicit;",
@@ -50,7 +64,12 @@ FORMAT = CardFormat(
             "TFEL/MFront, Description of the StandardElastoViscoPlasticity brick: "
             "Linear, Voce, Prager, Armstrong-Frederick",
             _write,
-        )
+        ),
+        "swift": CardLaw(
+            "StandardElastoViscoPlasticity",
+            "TFEL/MFront, Description of the StandardElastoViscoPlasticity brick: Swift",
+            _swift,
+        ),
     },
     suffix=".mfront",
 )
