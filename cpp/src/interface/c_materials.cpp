@@ -44,7 +44,7 @@ int curvewise_material_response(const char* material, const double* parameters, 
     return guarded(error, [&] {
         const auto chosen = checked(material, parameters, count, n, "points");
         if (n > 0) require(given, "given"), require(answer, "answer");
-        const auto flags = std::make_unique<bool[]>(static_cast<std::size_t>(n));
+        const auto flags = std::make_unique<bool[]>(n > 0 ? static_cast<std::size_t>(n) : 0);
         for (ptrdiff_t i = 0; i < n; ++i) {
             flags[static_cast<std::size_t>(i)] = by_stress == nullptr || by_stress[i] != 0;
         }
