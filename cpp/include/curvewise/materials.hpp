@@ -21,6 +21,10 @@
 /// Swift: isotropic hardening by a power law, |s| <= K (e0 + p)^n (Swift, J. Mechanics and Physics
 /// of Solids 1, 1952). Exact for steps of any length.
 ///
+/// JohnsonCook: isotropic hardening at a rate of strain, |s| <= (A + B p^n) (1 + C ln(rate /
+/// reference_rate)) (Johnson & Cook, 7th International Symposium on Ballistics, 1983). Exact for
+/// steps of any length.
+///
 /// Young's modulus of the first two is constant or decays with the plastic strain (Yoshida, Uemori
 /// & Fujiwara, Int. J. Plasticity 18, 2002): ds = E(p) de_e with E(p) = E - (E - Ea)(1 - exp(-xi
 /// p)).
@@ -96,6 +100,13 @@ struct Swift {
     static constexpr const char* material = "swift";
 };
 
+/// Parameters, in order: E, A, B, n, C.
+struct JohnsonCook {
+    static constexpr const char* material = "johnson-cook";
+    double rate = 1.0;            ///< of strain, in the unit of reference_rate
+    double reference_rate = 1.0;  ///< at which C has no effect
+};
+
 /// Calls visit(name, value) for each option.
 template <class Visit>
 void visit_options(ChabocheVoce& material, Visit&& visit) {
@@ -110,11 +121,16 @@ void visit_options(YoshidaUemori& material, Visit&& visit) {
 }
 
 template <class Visit>
+void visit_options(JohnsonCook& material, Visit&& visit) {
+    visit("rate", material.rate);
+    visit("reference_rate", material.reference_rate);
+}
+template <class Visit>
 void visit_options(Swift& /*material*/, Visit&& /*visit*/) {}
 
 /// The list of materials: one of them, chosen by the type of its options. C, Fortran and Python
 /// have every material that is added here.
-using Material = std::variant<ChabocheVoce, YoshidaUemori, Swift>;
+using Material = std::variant<ChabocheVoce, YoshidaUemori, Swift, JohnsonCook>;
 
 /// Calls visit(material), with the default options of every material in the order of the list.
 template <class Visit>

@@ -45,7 +45,13 @@ class DrivenTests(NamedTuple):
 
     @classmethod
     def of(
-        cls, material: Material, tests: Sequence[Any], *, cycles: str = "all", points: int = 300
+        cls,
+        material: Material,
+        tests: Sequence[Any],
+        *,
+        cycles: str = "all",
+        points: int = 300,
+        rates: Sequence[float] | None = None,
     ) -> DrivenTests:
         """Return the tests, thinned to about `points` points; see `fit_material`."""
         if cycles not in CYCLES:
@@ -56,7 +62,7 @@ class DrivenTests(NamedTuple):
         paths = tuple(one.path for one in driven)
         parts = [one.compared for one in driven]
         is_whole = all(isinstance(part, slice) and part == slice(None) for part in parts)
-        model = material.driven_by(paths, parts=None if is_whole else parts)
+        model = material.driven_by(paths, parts=None if is_whole else parts, rates=rates)
         return cls(model, tuple(path[part] for path, part in zip(paths, parts, strict=True)))
 
 

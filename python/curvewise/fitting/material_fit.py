@@ -183,6 +183,7 @@ def fit_material(
     bounds: Bounds | None = None,
     cycles: Cycles = "all",
     points: int = 300,
+    rates: Sequence[float] | None = None,
     seed: int = 0,
     max_runs: int | None = None,
     units: str = "MPa",
@@ -215,6 +216,8 @@ def fit_material(
         Approximate number of compared points of each test; shorter tests are unchanged. If the
         noise in strain of a longer test exceeds its step from row to row, the test is averaged over
         short blocks of rows first, and its reversals are located from both sides.
+    rates : sequence of float, optional
+        Rate of strain of each test, as for :meth:`curvewise.materials.Material.driven_by`.
     seed : int, default 0
         Seed of the search.
     max_runs : int, optional
@@ -276,7 +279,7 @@ def fit_material(
     given = [a if isinstance(a, PreparedTest) else b for a, b in zip(given, kept, strict=True)]
     warn_of_units(given, units)
     whole = list(map(whole_record, given))
-    driven = DrivenTests.of(material, given, cycles=cycles, points=points)
+    driven = DrivenTests.of(material, given, cycles=cycles, points=points, rates=rates)
     known, own = checked_names(material.names, fixed, bounds)
     is_whole = set(own) >= set(material.names)
     read_off = {} if is_whole else material.bounds_from(whole)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from .._names import names_alone
 from .chaboche_voce import ChabocheVoce
 from .driven_model import DrivenModel
+from .johnson_cook import JohnsonCook
 from .material import Material
 from .point import Parameter
 from .swift import Swift
@@ -19,6 +20,7 @@ __all__ = [
     "MATERIALS",
     "ChabocheVoce",
     "DrivenModel",
+    "JohnsonCook",
     "Material",
     "Parameter",
     "Swift",
@@ -27,6 +29,6 @@ __all__ = [
 __dir__ = names_alone(__all__)
 
 MATERIALS: dict[str, type[Material]] = {
-    kind.name: kind for kind in (ChabocheVoce, YoshidaUemori, Swift)
+    kind.name: kind for kind in (ChabocheVoce, YoshidaUemori, Swift, JohnsonCook)
 }
 """The materials by the names that commands and studies call them by."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
@@ -95,12 +95,15 @@ class DrivenModel(Generic[PointType]):
         Which of its points the curve of each test has; None for all.
     stresses : tuple of GivenStresses or None, or None
         For each test the stresses that drive it; None if strains do.
+    rates : tuple of float, or None
+        The rate of strain of each test; None for the material's own.
     """
 
     material: PointType
     strains: Sequence[Array]
     parts: Sequence[Part] | None = None
     stresses: Sequence[GivenStresses | None] | None = None
+    rates: Sequence[float] | None = None
 
     def __call__(self, parameters: Mapping[str, float]) -> list[Array]:
         """Return the curve of each test, shape (n, 2): strain and stress.
@@ -113,8 +116,8 @@ class DrivenModel(Generic[PointType]):
         """
         try:
             return [
-                self._curve(strain, stresses, parameters)[part]
-                for strain, stresses, part in self._paths()
+                _curve(material, strain, stresses, parameters)[part]
+                for material, strain, stresses, part in self._paths()
             ]
         except ValueError as error:
             raise OutsideModelError(str(error)) from None
@@ -122,7 +125,8 @@ class DrivenModel(Generic[PointType]):
     @property
     def identity(self) -> str:
         """The identity of runs in a store: material, paths, and the computing version."""
-        digest = hashlib.sha256(repr(self.parts).encode())
+        rates = "" if self.rates is None else repr(self.rates)
+        digest = hashlib.sha256((repr(self.parts) + rates).encode())
         for path in (*self.strains, *self._indices()):
             digest.update(path.tobytes())
         for one in self.stresses or ():
@@ -139,33 +143,41 @@ class DrivenModel(Generic[PointType]):
             self.material.names.index(name) for name in parameters if name in self.material.names
         ]
         found = []
-        for strain, stresses, part in self._paths():
+        for material, strain, stresses, part in self._paths():
             if stresses is None:
-                slopes = self.material.stress_and_slopes(strain, parameters)[1][part][:, order]
+                slopes = material.stress_and_slopes(strain, parameters)[1][part][:, order]
                 found.append(np.stack((np.zeros_like(slopes), slopes), axis=1))
                 continue
             given = np.where(stresses.points, stresses.values, strain)
-            slopes = self.material.response_and_slopes(given, stresses.points, parameters)[1]
+            slopes = material.response_and_slopes(given, stresses.points, parameters)[1]
             by_stress = stresses.points[:, np.newaxis]
             both = np.stack((np.where(by_stress, slopes, 0.0), np.where(by_stress, 0.0, slopes)), 1)
             found.append(both[part][:, :, order])
         return found
 
-    def _curve(
-        self, strain: Array, stresses: GivenStresses | None, parameters: Mapping[str, float]
-    ) -> Array:
-        """Return all points of a test."""
-        if stresses is None:
-            return np.column_stack((strain, self.material.stress(strain, parameters)))
-        points, values = stresses
-        answer = self.material.response(np.where(points, values, strain), points, parameters)
-        return np.column_stack((np.where(points, answer, strain), np.where(points, values, answer)))
-
     def _indices(self) -> list[npt.NDArray[np.int64]]:
         """Return the parts that are arrays, which their repr shortens."""
         return [part for part in self.parts or () if not isinstance(part, slice)]
 
-    def _paths(self) -> Iterator[tuple[Array, GivenStresses | None, Part]]:
+    def _paths(self) -> Iterator[tuple[PointType, Array, GivenStresses | None, Part]]:
         parts = self.parts or [slice(None)] * len(self.strains)
         stresses = self.stresses or [None] * len(self.strains)
-        return zip(self.strains, stresses, parts, strict=True)
+        materials = [self.material] * len(self.strains)
+        if self.rates is not None:
+            options = ({"rate": rate} for rate in self.rates)
+            materials = [replace(self.material, **option) for option in options]
+        return zip(materials, self.strains, stresses, parts, strict=True)
+
+
+def _curve(
+    material: MaterialPoint,
+    strain: Array,
+    stresses: GivenStresses | None,
+    parameters: Mapping[str, float],
+) -> Array:
+    """Return all points of a test."""
+    if stresses is None:
+        return np.column_stack((strain, material.stress(strain, parameters)))
+    points, values = stresses
+    answer = material.response(np.where(points, values, strain), points, parameters)
+    return np.column_stack((np.where(points, answer, strain), np.where(points, values, answer)))

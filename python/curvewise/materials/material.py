@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from typing import Any, ClassVar
 
 from .._bounds import Bounds, Log, on_its_scale
@@ -49,6 +49,7 @@ class Material(MaterialPoint, ABC):
         *,
         control: Any = "strain",
         parts: Sequence[Part] | None = None,
+        rates: Sequence[float] | None = None,
     ) -> DrivenModel[PointType]:
         """Return a model for `identify`: this material along the strains or stresses of loops.
 
@@ -64,6 +65,9 @@ class Material(MaterialPoint, ABC):
         parts : sequence of slice or ndarray of int, optional
             For each test the points of the returned curve, such as
             :func:`curvewise.curves.last_cycle`; the whole test drives the material in any case.
+        rates : sequence of float, optional
+            Rate of strain of each test, for a material with the option `rate`
+            (:class:`JohnsonCook`). By default, all tests have the rate of the material.
 
         Returns
         -------
@@ -73,17 +77,24 @@ class Material(MaterialPoint, ABC):
         Raises
         ------
         ValueError
-            If a test does not have two columns, or `control` is none of these.
+            If a test does not have two columns, or `control` is none of these. If `rates` has
+            another length than the tests, or the material has no rate.
         """
         tests = [
             strain_and_stress(experiment, f"experiments[{i}]")
             for i, experiment in enumerate(curve_list(experiments))
         ]
+        if rates is not None:
+            if not hasattr(self, "rate"):
+                raise ValueError(f"{type(self).__name__} has no rate of strain; leave rates out")
+            if len(rates) != len(tests):
+                raise ValueError(f"rates has {len(rates)} entries for {len(tests)} tests")
         return DrivenModel(
             self,
             tuple(test[:, 0].copy() for test in tests),
             None if parts is None else tuple(parts),
             given_stresses(tests, control),
+            None if rates is None else tuple(map(float, rates)),
         )
 
     def bounds_from(self, experiments: Any) -> Bounds:
@@ -229,6 +240,7 @@ class Material(MaterialPoint, ABC):
             material=self.name,
             model=type(self).__name__,
             described=repr(self),
+            options=asdict(self),
             choices={
                 one.name: chosen
                 for one in fields(self)

@@ -276,8 +276,40 @@ class _Swift(_Point):
         return left
 
 
+class _JohnsonCook(_Point):
+    """The state is p^n, whose rate is finite where p is 0."""
+
+    def __init__(self, constants: Mapping[str, float]) -> None:
+        super().__init__(constants)
+        self.state = np.zeros(1)
+        rates = constants.get("rate", 1.0) / constants.get("reference_rate", 1.0)
+        self._factor = 1.0 + constants["C"] * math.log(rates)
+
+    @property
+    def centre(self) -> float:
+        return 0.0
+
+    @property
+    def radius(self) -> float:
+        return float(self._factor * (self.constants["A"] + self.constants["B"] * self.state[0]))
+
+    def flow(self, n: float, left: float) -> float:
+        exponent = self.constants["n"]
+        steepness = self._factor * self.constants["B"] * exponent / self.constants["E"]
+
+        def rate(state: Array) -> Array:
+            found: Array = exponent / (state ** (1.0 / exponent - 1.0) + steepness)
+            return found
+
+        # Steps grow with the strain behind the yield point: the rate is no polynomial there.
+        h = min(left, max(0.2 * steepness / exponent * float(self.state[0]), 1e-12))
+        self.state = _runge_kutta(self.state, h, rate)
+        return h
+
+
 _LAWS: dict[str, Callable[[Mapping[str, float]], _Point]] = {
     "chaboche-voce": _ChabocheVoce,
     "yoshida-uemori": _YoshidaUemori,
     "swift": _Swift,
+    "johnson-cook": _JohnsonCook,
 }

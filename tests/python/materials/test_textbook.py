@@ -27,14 +27,15 @@ def between(low: float, high: float, place: float) -> float:
 @st.composite
 def steels(draw: st.DrawFn, material: Material, usual: dict[str, float]) -> dict[str, float]:
     """Draw parameters as metals have them."""
-    low_and_high = {name: (0.5 * value, 2.0 * value) for name, value in usual.items()}
-    low_and_high |= {
+    low_and_high = {
         "E": (60e3, 230e3), "Ea": (50e3, 200e3), "xi": (5.0, 100.0),
         "yield": (100.0, 700.0), "Q": (1.0, 300.0), "b": (0.5, 100.0),
         "C1": (1e3, 3e5), "gamma1": (1.0, 1e3), "C2": (1e3, 1e5), "gamma2": (1.0, 100.0),
         "Y": (100.0, 500.0), "CB": (510.0, 700.0), "C": (10.0, 600.0), "K": (1.0, 50.0),
         "RSAT": (1.0, 400.0), "SB": (1.0, 300.0), "H": (0.01, 1.2),
     }  # fmt: skip
+    if not isinstance(material, ChabocheVoce | YoshidaUemori):
+        low_and_high = {name: (0.5 * value, 2.0 * value) for name, value in usual.items()}
     if isinstance(material, YoshidaUemori):
         low_and_high |= {"C1": (1e-3, 0.1), "C2": (0.1, 1.0)}
     found = {name: between(*low_and_high[name], draw(share)) for name in material.names}

@@ -31,6 +31,8 @@ class CardContent:
         The name of its class.
     described : str
         The material with its options, as Python prints it.
+    options : mapping of str to object
+        The options of the material.
     choices : mapping of str to str
         Options that choose among laws, and differ from their defaults.
     parameters : dict of str to float
@@ -58,6 +60,7 @@ class CardContent:
     material: str
     model: str
     described: str
+    options: Mapping[str, object]
     choices: Mapping[str, str]
     parameters: dict[str, float]
     units: Mapping[str, str]

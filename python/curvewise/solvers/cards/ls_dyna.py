@@ -73,6 +73,19 @@ def _chaboche(content: CardContent) -> list[str]:
     ]
 
 
+def _johnson_cook(content: CardContent) -> list[str]:
+    p = content.parameters
+    rate = float(str(content.options["reference_rate"]))
+    return [
+        *_title("SIMPLIFIED_JOHNSON_COOK", content),
+        *_card("MID RO E PR VP", ["1", "&density", p["E"], content.poisson, 1.0]),
+        *_card(
+            "A B N C PSFAIL SIGMAX SIGSAT EPS0",
+            [p["A"], p["B"], p["n"], p["C"], 0.0, 0.0, 0.0, rate],
+        ),
+    ]
+
+
 def _title(keyword: str, content: CardContent) -> list[str]:
     return [
         "$ the density: *PARAMETER with R density, or write it in the place of &density",
@@ -104,6 +117,11 @@ FORMAT = CardFormat(
             "*MAT_103",
             "LS-DYNA Keyword User's Manual, Volume II, *MAT_ANISOTROPIC_VISCOPLASTIC (*MAT_103)",
             _chaboche,
+        ),
+        "johnson-cook": CardLaw(
+            "*MAT_098",
+            "LS-DYNA Keyword User's Manual, Volume II, *MAT_SIMPLIFIED_JOHNSON_COOK (*MAT_098)",
+            _johnson_cook,
         ),
     },
     width=_WIDTH,
