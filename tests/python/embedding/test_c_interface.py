@@ -34,7 +34,7 @@ from programs import MARKS, run
 import curvewise
 from curvewise._options import CoordinateMetric, Spacing
 from curvewise.materials import MATERIALS as MATERIALS_OF_PYTHON
-from curvewise.materials import ChabocheVoce, YoshidaUemori
+from curvewise.materials import ChabocheVoce, JohnsonCook, Swift, YoshidaUemori
 
 pytestmark = MARKS
 
@@ -264,6 +264,8 @@ MATERIALS = [
         (200e3, 160e3, 30.0, 300.0, -50.0, 8.0, 80e3, 400.0),
     ),
     ("yoshida-uemori", YoshidaUemori(), (200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4)),
+    ("swift", Swift(), (200e3, 720.0, 0.004, 0.21)),
+    ("johnson-cook rate=1e3", JohnsonCook(rate=1e3), (200e3, 350.0, 275.0, 0.36, 0.022)),
     (
         "  yoshida-uemori rtol=1e-6  growth=power ",
         YoshidaUemori(growth="power", rtol=1e-6),

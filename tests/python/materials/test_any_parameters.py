@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from metals import METALS
 
 from curvewise.materials import ChabocheVoce, Material, YoshidaUemori
 from curvewise.reference.materials import stress as textbook
@@ -91,6 +92,25 @@ def test_stresses_are_within_the_law_and_slopes_finite(material, decades, rounds
         assert np.isfinite(slopes).all()
     least = {1.5: 1.0, 6.0: 0.6, 40.0: 0.1}  # a metal's are never refused
     assert within >= least[decades] * count
+
+
+@pytest.mark.parametrize(("material", "usual"), METALS, ids=lambda one: str(one)[:40])
+@pytest.mark.parametrize("decades", [1.0, 6.0, 40.0])
+def test_numbers_of_every_material_are_finite_or_refused_by_name(material, usual, decades) -> None:
+    rng = np.random.default_rng(20261201)
+    found = 0
+    for _ in range(100):
+        factors = 10.0 ** rng.uniform(-decades, decades, len(usual))
+        constants = dict(zip(usual, np.array(list(usual.values())) * factors, strict=True))
+        try:
+            stress, slopes = material.stress_and_slopes(walked(rng), constants)
+        except ValueError as refusal:
+            assert str(refusal).partition(" is ")[0] in material.names
+            continue
+        found += 1
+        assert np.isfinite(stress).all()
+        assert np.isfinite(slopes).all()
+    assert found > 5 or decades > 1.0
 
 
 @each_material

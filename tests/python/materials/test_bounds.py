@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from metals import METALS
 
 from curvewise.calibration import Log
 from curvewise.calibration.problem.space import Space
@@ -70,6 +71,15 @@ def test_bounds_of_two_surfaces_hold_what_made_the_loop(growth, modulus) -> None
     bounds = material.bounds_from(loop(material, made_of, 0.05, -0.05, 0.05))
     space = Space(bounds)
     places = space.unit(made_of)
+    assert (places > 0.0).all()
+    assert (places < 1.0).all()
+
+
+@pytest.mark.parametrize(("material", "constants"), METALS, ids=lambda one: str(one)[:40])
+def test_bounds_hold_the_numbers_of_every_material(material, constants) -> None:
+    bounds = material.bounds_from(loop(material, constants, 0.05, -0.05, 0.05))
+    assert tuple(bounds) == material.names
+    places = Space(bounds).unit(constants)
     assert (places > 0.0).all()
     assert (places < 1.0).all()
 
