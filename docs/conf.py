@@ -82,6 +82,7 @@ nitpicky = True
 nitpick_ignore = [
     *(("c:identifier", name) for name in ("int64_t", "ptrdiff_t", "size_t")),
     ("std:ref", "curvewise_8h"),
+    ("std:ref", "materials_8hpp"),
 ]
 nitpick_ignore_regex = [
     (

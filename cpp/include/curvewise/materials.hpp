@@ -133,9 +133,12 @@ void visit_options(Swift& /*material*/, Visit&& /*visit*/) {}
 using Material = std::variant<ChabocheVoce, YoshidaUemori, Swift, JohnsonCook>;
 
 /// Calls visit(material), with the default options of every material in the order of the list.
-template <class Visit>
+template <std::size_t place = 0, class Visit>
 void for_each_material(Visit&& visit) {
-    detail::for_each_alternative(static_cast<const Material*>(nullptr), visit);
+    if constexpr (place < std::variant_size_v<Material>) {
+        visit(std::variant_alternative_t<place, Material>{});
+        for_each_material<place + 1>(visit);
+    }
 }
 
 /// The material that a text names, with options after it: "chaboche-voce", or "yoshida-uemori

@@ -32,6 +32,13 @@ using SingleMeasure =
 using Measure = decltype(detail::joined(static_cast<const detail::SingleMeasure*>(nullptr),
                                         static_cast<const EditDistance*>(nullptr)));
 
+namespace detail {
+template <class Visit, class... Options>
+void for_each_alternative(const std::variant<Options...>* /*type*/, Visit&& visit) {
+    (visit(Options{}), ...);
+}
+}  // namespace detail
+
 /// Calls visit(options), with the default options of every measure in the order of the list.
 template <class Visit>
 void for_each_measure(Visit&& visit) {

@@ -65,12 +65,4 @@ constexpr std::array<const char*, sizeof...(Name)> names_up_to(Name... names) no
     return {names...};
 }
 
-namespace detail {
-/// Calls visit(options) with the defaults of each alternative of a std::variant.
-template <template <class...> class Variant, class... Options, class Visit>
-void for_each_alternative(const Variant<Options...>* /*type*/, Visit&& visit) {
-    (visit(Options{}), ...);
-}
-}  // namespace detail
-
 }  // namespace curvewise
