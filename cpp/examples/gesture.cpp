@@ -40,10 +40,9 @@ class Recogniser {
     std::pair<std::string, double> recognise(const Stroke& stroke, double limit) const {
         std::pair<std::string, double> best{"unknown", limit};
         for (const auto& [name, compare] : templates_) {
-            double distance = 0.0;
             curvewise::BatchOptions options;
             options.cutoff = best.second;  // a larger distance becomes infinity, and costs little
-            compare({stroke}, &distance, options);
+            const double distance = compare(stroke, options);
             if (distance < best.second) best = {name, distance};
         }
         return best;

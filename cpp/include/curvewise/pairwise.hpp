@@ -34,8 +34,10 @@ namespace curvewise {
 struct BatchOptions {
     /// Threads for this call, -1 for one per core. (The `workers` of the measure are not used.)
     std::ptrdiff_t workers = 1;
-    /// A larger value becomes infinity; its computation may end early. At least 0, except if the
-    /// measure may be negative (dtw with own steps of negative weight).
+    /// A larger value becomes infinity, and takes less time. If a lower bound of dtw, frechet or
+    /// frechet_continuous is above the cutoff, the pair is not computed; otherwise its computation
+    /// ends early. At least 0, except if the measure may be negative (dtw with own steps of
+    /// negative weight).
     double cutoff = std::numeric_limits<double>::infinity();
 };
 
@@ -107,6 +109,10 @@ class Prepared {
 
     /// The measure of P and Q. Throws as the measure does.
     [[nodiscard]] CURVEWISE_EXPORT double operator()(const CurveView& Q,
+                                                     Control* control = nullptr) const;
+    /// The same with a cutoff for this call: a larger value becomes infinity, and takes less time.
+    [[nodiscard]] CURVEWISE_EXPORT double operator()(const CurveView& Q,
+                                                     const BatchOptions& options,
                                                      Control* control = nullptr) const;
     /// Writes the measure of P and each of Qs to out[j], as cdist would.
     CURVEWISE_EXPORT void operator()(const std::vector<CurveView>& Qs, double* out,

@@ -87,13 +87,7 @@ int curvewise_prepared_value(const curvewise_prepared* prepared, const curvewise
         double& out = at(value, "value");
         const CurveView view = curvewise::c::view(Q, "Q");
         const Run run(batch);
-        if (batch == nullptr) {
-            out = P(view);
-        } else {
-            double found = 0.0;
-            P({view}, &found, run.options, run.control);
-            out = found;
-        }
+        out = P(view, run.options, run.control);
     });
 }
 

@@ -120,7 +120,7 @@ void check_columns(const BatchMeasure& measure, const BatchMeasure::Rows& rows,
                    Poller& poller) {
     for (const Block& block : blocks) {
         const LoadedBlock q(Q, block, poller);
-        measure.pairs(rows, q.curves(), poller);
+        measure.pairs(rows, q.curves(), false, poller);
     }
 }
 
@@ -156,7 +156,8 @@ void compute_rows(const BatchMeasure& measure, const RowBlock& row, const Checke
         if (set == PairSet::triangle && column.first < row.first) continue;
         const bool is_diagonal = set == PairSet::triangle && column.first == row.first;
         const LoadedBlock q(Q, column, poller);
-        const auto pairs = measure.pairs(row.rows, q.curves(), poller);
+        const bool has_cutoff = output.options.cutoff < infinity;
+        const auto pairs = measure.pairs(row.rows, q.curves(), has_cutoff, poller);
         if (!row.is_checked) measure.check_rows(row.rows, poller);
         const Sizes sizes = sizes_of(q.curves());
         const std::ptrdiff_t beside =
@@ -197,7 +198,7 @@ void write_diagonal(const BatchMeasure& measure, const CheckedCurves& curves,
         if (!measure.is_zero_to_itself(curves[i])) {
             const LoadedBlock one(curves, {i, i + 1}, poller);
             const auto row = measure.prepare_rows(one.curves(), poller);
-            value = measure.value(*row, one.curves().front(), poller);
+            value = measure.value(*row, one.curves().front(), {}, poller);
         }
         const auto place = static_cast<std::ptrdiff_t>(i);
         output.destination.write(place, place, value > output.options.cutoff ? infinity : value);
@@ -261,15 +262,16 @@ PreparedCurve::PreparedCurve(std::unique_ptr<const BatchMeasure> measure, const 
     measure_->check_rows(*rows_, poller);
 }
 
-double PreparedCurve::value(const CurveView& Q, Control* control) const {
+double PreparedCurve::value(const CurveView& Q, const BatchOptions& options,
+                            Control* control) const {
     check_shapes(measure_->requirements(), {P_, "P"}, {Q, "Q"});
     Poller poller(control);
     poller.begin(measure_->steps()(P_.size(), 1, Q.size()));
     const CheckedCurve checked_q(Q, "Q", poller, measure_->requirements().on_sphere);
     measure_->check_sizes(P_.size(), Q.size());
-    const double value = measure_->value(*rows_, checked_q, poller);
+    const double value = measure_->value(*rows_, checked_q, options, poller);
     poller.finish();
-    return value;
+    return value > options.cutoff ? infinity : value;
 }
 
 void PreparedCurve::values(const CurveList& Qs, const BatchOutput& output) const {

@@ -40,7 +40,8 @@ class BatchMeasure : public runtime::InScratch {
     virtual ~BatchMeasure() = default;
 
     // The value of the one curve of `rows`, and Q.
-    virtual double value(const Rows& rows, const CheckedCurve& Q, Poller& poller) const = 0;
+    virtual double value(const Rows& rows, const CheckedCurve& Q, const BatchOptions& options,
+                         Poller& poller) const = 0;
 
     virtual curves::Requirements requirements() const noexcept = 0;
     virtual void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const = 0;
@@ -49,10 +50,11 @@ class BatchMeasure : public runtime::InScratch {
     virtual PairTiles::Steps steps() const noexcept = 0;
     virtual std::unique_ptr<const Rows> prepare_rows(const runtime::ScratchVector<CheckedCurve>& P,
                                                      Poller& poller) const = 0;
-    // The pairs of the rows, which must outlive them, with the curves that take Q's place.
+    // The pairs of the rows, which must outlive them, with the curves that take Q's place. Larger
+    // values than a cutoff need not be computed, if there is one.
     virtual std::unique_ptr<const PairValues> pairs(const Rows& rows,
                                                     const runtime::ScratchVector<CheckedCurve>& Q,
-                                                    Poller& poller) const = 0;
+                                                    bool has_cutoff, Poller& poller) const = 0;
     // Throws where a row serves no Q.
     virtual void check_rows(const Rows& rows, Poller& poller) const = 0;
     // None yet. They must not outlive this.
@@ -82,7 +84,7 @@ class PreparedCurve {
    public:
     PreparedCurve(std::unique_ptr<const BatchMeasure> measure, const CurveView& P,
                   Control* control);
-    double value(const CurveView& Q, Control* control) const;
+    double value(const CurveView& Q, const BatchOptions& options, Control* control) const;
     void values(const CurveList& Qs, const BatchOutput& output) const;
     const BatchMeasure& measure() const noexcept { return *measure_; }
 

@@ -2,15 +2,20 @@
 // own file.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "pairwise/batch.hpp"
+#include "pairwise/bounded.hpp"
 #include "pairwise/measure.hpp"
 #include "pairwise/targets_of.hpp"
 #include "runtime/scratch.hpp"
+#include "runtime/workers.hpp"
 
 namespace curvewise::pairwise {
 
@@ -23,11 +28,21 @@ struct NothingBeside {
     }
     static std::ptrdiff_t gather(const M& /*measure*/,
                                  const typename M::PreparedQ* const* /*curves*/,
-                                 std::ptrdiff_t /*count*/) noexcept {
+                                 std::ptrdiff_t /*count*/, bool /*has_cutoff*/) noexcept {
         return 0;
     }
     static bool values(const M& /*measure*/, const typename M::PreparedP& /*P*/,
                        std::ptrdiff_t /*first*/, double* /*out*/, Poller& /*poller*/) noexcept {
+        return false;
+    }
+    static std::ptrdiff_t candidates(const M& /*measure*/, double /*cutoff*/,
+                                     const typename M::PreparedP& /*P*/, std::ptrdiff_t /*first*/,
+                                     std::ptrdiff_t* /*places*/, Poller& /*poller*/) noexcept {
+        return -1;
+    }
+    static bool pair_values(const M& /*measure*/, const typename M::PreparedP* const* /*Ps*/,
+                            const typename M::PreparedQ* const* /*Qs*/, std::ptrdiff_t /*count*/,
+                            double* /*out*/, Poller& /*poller*/) noexcept {
         return false;
     }
 };
@@ -46,11 +61,13 @@ class BatchOf final : public BatchMeasure {
    public:
     explicit BatchOf(const M& measure) : measure_(measure) {}
 
-    double value(const Rows& rows, const CheckedCurve& Q, Poller& poller) const override {
+    double value(const Rows& rows, const CheckedCurve& Q, const BatchOptions& options,
+                 Poller& poller) const override {
         const PreparedP& p = sides(rows).front();
         const PreparedQ q(Q, poller);
         Memory memory;
-        return measure_(p, q, {std::numeric_limits<double>::infinity(), 1, poller, memory});
+        const std::ptrdiff_t workers = runtime::resolve_workers(options.workers);
+        return measure_(p, q, {options.cutoff, workers, poller, memory});
     }
 
     curves::Requirements requirements() const noexcept override { return measure_.requirements(); }
@@ -82,8 +99,8 @@ class BatchOf final : public BatchMeasure {
 
     std::unique_ptr<const PairValues> pairs(const Rows& rows,
                                             const runtime::ScratchVector<CheckedCurve>& Q,
-                                            Poller& poller) const override {
-        return std::make_unique<Pairs>(measure_, sides(rows), Q, poller);
+                                            bool has_cutoff, Poller& poller) const override {
+        return std::make_unique<Pairs>(measure_, sides(rows), Q, has_cutoff, poller);
     }
 
    private:
@@ -116,8 +133,10 @@ class BatchOf final : public BatchMeasure {
     class Pairs final : public PairValues {
        public:
         Pairs(const M& measure, const runtime::ScratchVector<PreparedP>& rows,
-              const runtime::ScratchVector<CheckedCurve>& Q, Poller& poller)
-            : measure_(measure), rows_(rows), columns_(prepare_all<PreparedQ>(Q, poller)) {}
+              const runtime::ScratchVector<CheckedCurve>& Q, bool has_cutoff, Poller& poller)
+            : measure_(measure), rows_(rows), columns_(prepare_all<PreparedQ>(Q, poller)) {
+            if (Bounds::levels > 1 && has_cutoff && are_worth_bounds()) keep_bounds(Q);
+        }
 
         bool is_swept() const noexcept override { return M::is_swept; }
         PairTiles::Steps steps() const noexcept override { return M::steps; }
@@ -130,24 +149,28 @@ class BatchOf final : public BatchMeasure {
         std::unique_ptr<ThreadMemory> make_memory() const override {
             return std::make_unique<OwnMemory>();
         }
+        bool are_bounded() const noexcept override { return are_bounded_; }
         double value(std::ptrdiff_t i, std::ptrdiff_t j, const PairCall& call) const override {
-            Memory& memory = static_cast<OwnMemory&>(call.memory).content;
-            return measure_(rows_[static_cast<std::size_t>(i)],
-                            columns_[static_cast<std::size_t>(j)],
-                            {call.cutoff, call.workers, call.poller, memory});
+            auto& own = static_cast<OwnMemory&>(call.memory);
+            const PreparedP& P = rows_[static_cast<std::size_t>(i)];
+            const PreparedQ& Q = columns_[static_cast<std::size_t>(j)];
+            const Call<Memory> of_pair{call.cutoff, call.workers, call.poller, own.content};
+            if (!are_bounded_ || !own.trial.is_due()) return measure_(P, Q, of_pair);
+            return bounded_value(own, i, j, of_pair);
         }
         std::ptrdiff_t most_beside(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept override {
             if (columns_.empty()) return 1;
             return Beside::most(measure_, n, m, columns_.front().checked.curve.dim());
         }
         std::ptrdiff_t gather(const std::ptrdiff_t* columns, std::ptrdiff_t count,
-                              ThreadMemory& memory) const override {
-            auto& own = static_cast<OwnMemory&>(memory);
+                              const PairCall& call) const override {
+            auto& own = static_cast<OwnMemory&>(call.memory);
             own.gathered.clear();
             for (std::ptrdiff_t k = 0; k < count; ++k) {
                 own.gathered.push_back(&columns_[static_cast<std::size_t>(columns[k])]);
             }
-            return own.beside.gather(measure_, own.gathered.data(), count);
+            const bool has_cutoff = call.cutoff < std::numeric_limits<double>::infinity();
+            return own.beside.gather(measure_, own.gathered.data(), count, has_cutoff);
         }
         bool values(std::ptrdiff_t i, std::ptrdiff_t first, double* out,
                     const PairCall& call) const override {
@@ -155,18 +178,87 @@ class BatchOf final : public BatchMeasure {
                 .beside.values(measure_, rows_[static_cast<std::size_t>(i)], first, out,
                                call.poller);
         }
+        std::ptrdiff_t candidates(std::ptrdiff_t i, std::ptrdiff_t first, std::ptrdiff_t* places,
+                                  const PairCall& call) const override {
+            return static_cast<OwnMemory&>(call.memory)
+                .beside.candidates(measure_, call.cutoff, rows_[static_cast<std::size_t>(i)], first,
+                                   places, call.poller);
+        }
+        bool pair_values(const std::pair<std::ptrdiff_t, std::ptrdiff_t>* pairs,
+                         std::ptrdiff_t count, double* out, const PairCall& call) const override {
+            auto& own = static_cast<OwnMemory&>(call.memory);
+            own.gathered_rows.clear();
+            own.gathered.clear();
+            for (std::ptrdiff_t k = 0; k < count; ++k) {
+                own.gathered_rows.push_back(&rows_[static_cast<std::size_t>(pairs[k].first)]);
+                own.gathered.push_back(&columns_[static_cast<std::size_t>(pairs[k].second)]);
+            }
+            return own.pairs.pair_values(measure_, own.gathered_rows.data(), own.gathered.data(),
+                                         count, out, call.poller);
+        }
 
        private:
         using Beside = typename BesideOf<M>::type;
+        using Bounds = typename BoundsOf<M>::type;
         struct OwnMemory final : ThreadMemory {
             Memory content;
             Beside beside;
+            Beside pairs;
+            runtime::ScratchVector<const PreparedP*> gathered_rows;
             runtime::ScratchVector<const PreparedQ*> gathered;
+            std::optional<typename Bounds::Query> query;
+            std::ptrdiff_t query_of = -1;
+            Trial trial;
         };
+
+        // Those of the columns take as long as some pairs. Pairs that are computed at once have
+        // bounds of their own.
+        bool are_worth_bounds() const noexcept {
+            constexpr std::size_t fewest_rows = 4;
+            std::ptrdiff_t n = 0, m = 0;
+            for (const PreparedP& P : rows_) n = std::max(n, P.checked.curve.size());
+            for (const PreparedQ& Q : columns_) m = std::max(m, Q.checked.curve.size());
+            return rows_.size() >= fewest_rows && most_beside(n, m) == 1;
+        }
+        // What a tested pair takes, for the poller: about a microsecond.
+        static constexpr std::int64_t bound_effort = 1 << 10;
+
+        void keep_bounds(const runtime::ScratchVector<CheckedCurve>& Q) {
+            std::vector<CurveView> views;
+            views.reserve(Q.size());
+            for (const CheckedCurve& checked : Q) views.push_back(checked.curve);
+            bounds_.reserve(measure_, views);
+            for (const PreparedQ& column : columns_) bounds_.keep(column);
+            are_bounded_ = true;
+        }
+
+        // The value, or infinity if a bound is above the cutoff.
+        double bounded_value(OwnMemory& own, std::ptrdiff_t i, std::ptrdiff_t j,
+                             const Call<Memory>& call) const {
+            if (own.query_of != i) {
+                own.query.emplace(measure_, bounds_, rows_[static_cast<std::size_t>(i)]);
+                own.query_of = i;
+            }
+            const PreparedQ& Q = columns_[static_cast<std::size_t>(j)];
+            double bound = 0.0;
+            own.query->quick(j, 1, &bound);
+            const bool is_out =
+                bound > call.cutoff || is_above(*own.query, j, Q, call.cutoff, Bounds::levels);
+            own.trial.record(is_out);
+            if (is_out) {
+                if (M::is_swept)
+                    call.poller.count_steps(steps()(row_points(i), 1, column_points(j)), 0);
+                call.poller.spend(bound_effort);
+                return std::numeric_limits<double>::infinity();
+            }
+            return own.query->value(j, Q, call);
+        }
 
         const M& measure_;
         const runtime::ScratchVector<PreparedP>& rows_;
         runtime::ScratchVector<PreparedQ> columns_;
+        Bounds bounds_;
+        bool are_bounded_ = false;
     };
 
     M measure_;

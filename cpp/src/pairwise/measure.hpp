@@ -61,11 +61,19 @@
 //   M::Beside                          several Qs, and the memory of one thread
 //     most(measure, n, m, dim)         of how many Qs of m points, with Ps of n points; 1 where
 //                                      one by one is as fast
-//     gather(measure, Qs, count)       takes the first of the Qs, given as pointers, the longest
+//     gather(measure, Qs, count, has_cutoff)
+//                                      takes the first of the Qs, given as pointers, the longest
 //                                      first; returns how many, 0 where the first is not for this
 //     values(measure, prepared_p, first, out, poller)
 //                                      writes those of the Qs from `first` on, and counts their
 //                                      steps; false, and nothing done, where P is not for this
+//     candidates(measure, cutoff, prepared_p, first, places, poller)
+//                                      writes the places, from `first` on, of Qs whose values may
+//                                      be at most the cutoff, and returns how many; counts the
+//                                      steps of the others; -1 if all are computed in less time
+//     pair_values(measure, Ps, Qs, count, out, poller)
+//                                      the same as values() for pairs, given as pointers; all Ps
+//                                      have as many points as each other, and so have the Qs
 //
 // For other results of its functions (a path, a table), it has further members that take the same
 // three arguments.

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 
 #include "curvewise/pairwise.hpp"
 #include "pairwise/pair_tiles.hpp"
@@ -84,6 +85,9 @@ class PairValues : public runtime::InScratch {
     virtual std::ptrdiff_t row_points(std::ptrdiff_t i) const noexcept = 0;
     virtual std::ptrdiff_t column_points(std::ptrdiff_t j) const noexcept = 0;
     virtual std::unique_ptr<ThreadMemory> make_memory() const = 0;
+    // Whether bounds are tested before a value is computed. Their query is made for a row, so that
+    // it serves if the next pair has this row, too.
+    virtual bool are_bounded() const noexcept = 0;
     virtual double value(std::ptrdiff_t i, std::ptrdiff_t j, const PairCall& call) const = 0;
 
     // One row with several columns at once, with the same values: how many columns of m points at
@@ -91,11 +95,20 @@ class PairValues : public runtime::InScratch {
     virtual std::ptrdiff_t most_beside(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept = 0;
     // Takes the first of these columns, the longest first, and returns how many; or none.
     virtual std::ptrdiff_t gather(const std::ptrdiff_t* columns, std::ptrdiff_t count,
-                                  ThreadMemory& memory) const = 0;
+                                  const PairCall& call) const = 0;
     // Writes the values of row i and the columns taken, from number `first` on, regardless of the
     // cutoff. False, and nothing done, where the row is not for this.
     virtual bool values(std::ptrdiff_t i, std::ptrdiff_t first, double* out,
                         const PairCall& call) const = 0;
+    // Writes the places, counted from number `first` of the columns taken, of those whose values
+    // with row i may be within the cutoff. Returns their number, and counts the steps of the other
+    // pairs; or -1, if it is faster to compute the values of all.
+    virtual std::ptrdiff_t candidates(std::ptrdiff_t i, std::ptrdiff_t first,
+                                      std::ptrdiff_t* places, const PairCall& call) const = 0;
+    // Several pairs at once, regardless of the cutoff: rows with the same number of points, columns
+    // with the same number of points. False, and nothing done, where they are not for this.
+    virtual bool pair_values(const std::pair<std::ptrdiff_t, std::ptrdiff_t>* pairs,
+                             std::ptrdiff_t count, double* out, const PairCall& call) const = 0;
 };
 
 // Throws Stopped where the poller, which has begun, says so.

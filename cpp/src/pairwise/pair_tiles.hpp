@@ -43,15 +43,13 @@ class PairTiles {
 
     PairSet set() const noexcept { return set_; }
     const runtime::ScratchVector<Tile>& tiles() const noexcept { return tiles_; }
-    // Calls visit(i, j), indices of the lists as given, for every pair of the tile. In a triangle
-    // i < j. Ends at once where `visit` returns false.
+    // Calls visit(i, j), indices of the lists as given, for every pair of a row and a column of the
+    // tile. Ends at once where `visit` returns false.
     template <class Visit>
     void for_each(const Tile& tile, Visit visit) const {
         for (std::ptrdiff_t a = tile.row; a < tile.row_end; ++a) {
             for (std::ptrdiff_t b = first_column(tile, a); b < tile.column_end; ++b) {
-                const std::ptrdiff_t i = row(a), j = columns_[static_cast<std::size_t>(b)];
-                const bool swap = set_ == PairSet::triangle && j < i;
-                if (!(swap ? visit(j, i) : visit(i, j))) return;
+                if (!visit(row(a), columns_[static_cast<std::size_t>(b)])) return;
             }
         }
     }

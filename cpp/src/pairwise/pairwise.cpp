@@ -91,7 +91,13 @@ Prepared::Prepared(const CurveView& P, const Measure& measure, Control* control)
                                                batch_of(measure), P, control)) {}
 
 double Prepared::operator()(const CurveView& Q, Control* control) const {
-    return state_->value(Q, control);
+    return state_->value(Q, {}, control);
+}
+
+double Prepared::operator()(const CurveView& Q, const BatchOptions& options,
+                            Control* control) const {
+    check_options(options, state_->measure());
+    return state_->value(Q, options, control);
 }
 
 void Prepared::operator()(const std::vector<CurveView>& Qs, double* out,

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "warping/cost_sums.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/ground_distance.hpp"
 
@@ -25,12 +26,39 @@ struct Sweep {
         if (options.open_begin || options.open_end || options.ground.metric == Metric::haversine) {
             return;
         }
-        kernel = active_level().kernels->beside(options.recurrence, cost, dim);
+        functions = active_level().kernels->beside(options.recurrence, cost, dim);
     }
 
     PutOffRoot root;
-    kernels::BesideFunction kernel = nullptr;
+    kernels::BesideKernels functions;
 };
+
+// Writes the curves that curve(lane) gives, of at most `size` points, to `lanes` lanes. What a lane
+// has beyond its curve's end is 0.
+template <class Curve>
+void interleave(const Curve& curve, PointOrder order, std::ptrdiff_t lanes, std::ptrdiff_t size,
+                std::ptrdiff_t stride, double* to) {
+    constexpr std::ptrdiff_t most = kernels::padding * kernels::most_packs_beside;
+    const std::ptrdiff_t dim = curve(0).dim(), step = order == PointOrder::reversed ? -1 : 1;
+    const double* from[most];
+    std::ptrdiff_t shared = size;
+    for (std::ptrdiff_t l = 0; l < lanes; ++l) shared = std::min(shared, curve(l).size());
+    for (std::ptrdiff_t c = 0; c < dim; ++c) {
+        for (std::ptrdiff_t l = 0; l < lanes; ++l) {
+            const PackedCurve& packed = curve(l);
+            from[l] = packed.data() + c * packed.stride() + (step < 0 ? packed.size() - 1 : 0);
+        }
+        double* row = to + c * stride;
+        for (std::ptrdiff_t j = 0; j < shared; ++j, row += dim * stride) {
+            for (std::ptrdiff_t l = 0; l < lanes; ++l) row[l] = from[l][step * j];
+        }
+        for (std::ptrdiff_t j = shared; j < size; ++j, row += dim * stride) {
+            for (std::ptrdiff_t l = 0; l < lanes; ++l) {
+                row[l] = j < curve(l).size() ? from[l][step * j] : 0.0;
+            }
+        }
+    }
+}
 
 bool needs_no_scale(const WarpingOptions& options, const curves::CheckedCurve& curve) noexcept {
     return range_of(options.ground, curve.largest).is_identity();
@@ -64,22 +92,33 @@ bool saves_time(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t 
     return m <= most_columns && cells_of_row(options.window, n, m) * lanes_beside() <= most * pairs;
 }
 
+// With so many candidates of `count` pairs of n and m points, bounds and candidates take as long as
+// all of the pairs together; negative if bounds alone do. In cells of a table, by measurement.
+std::ptrdiff_t most_candidates(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m,
+                               std::ptrdiff_t dim, std::ptrdiff_t count) noexcept {
+    const std::ptrdiff_t pair = n * cells_of_row(options.window, n, m) * dim;
+    const std::ptrdiff_t bound = (m + 80) * dim;
+    const std::ptrdiff_t candidate = pair + pair / 2 + 4 * (n + m) * dim;
+    return pair < bound ? -1 : count * (pair - bound) / candidate;
+}
+
 }  // namespace
 
 std::ptrdiff_t CurvesBeside::most(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m,
                                   std::ptrdiff_t dim) noexcept {
-    if (Sweep(options, dim, true).kernel == nullptr) return 1;
+    if (Sweep(options, dim, true).functions.sweep == nullptr) return 1;
     return saves_time(options, n, m, dim, lanes_beside()) ? lanes_beside() : 1;
 }
 
 std::ptrdiff_t CurvesBeside::gather(const WarpingOptions& options, const Q* const* curves,
-                                    std::ptrdiff_t count) {
+                                    std::ptrdiff_t count, bool has_cutoff) {
     static_assert(most_lanes >= kernels::padding * kernels::most_packs_beside);
     stride_ = lanes_beside();
     columns_ = curves[0]->packed.size();
     dim_ = curves[0]->packed.dim();
     count = std::min(count, stride_);
-    if (!saves_time(options, columns_, columns_, dim_, count)) return 0;
+    // Bounds alone save time with fewer.
+    if (!has_cutoff && !saves_time(options, columns_, columns_, dim_, count)) return 0;
     const bool is_limited = options.window.radius || options.window.fraction;
     const std::ptrdiff_t fewest = is_limited ? columns_ : columns_ - columns_ / 8;
     squares_are_in_domain_ = true;
@@ -94,21 +133,11 @@ std::ptrdiff_t CurvesBeside::gather(const WarpingOptions& options, const Q* cons
     row_.reserve(columns_ * stride_);
     const std::ptrdiff_t width = active_level().kernels->lanes;
     const std::ptrdiff_t lanes = (count_ + width - 1) / width * width;
-    for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
-        interleave(*curves[std::min(lane, count_ - 1)], lane);
-    }
+    const auto curve = [&](std::ptrdiff_t lane) -> const PackedCurve& {
+        return curves[std::min(lane, count_ - 1)]->packed;
+    };
+    interleave(curve, PointOrder::reversed, lanes, columns_, stride_, points_.data());
     return count_;
-}
-
-// Its columns beyond the end are all 0.
-void CurvesBeside::interleave(const Q& curve, std::ptrdiff_t lane) noexcept {
-    const std::ptrdiff_t m = curve.packed.size(), step = dim_ * stride_;
-    for (std::ptrdiff_t c = 0; c < dim_; ++c) {
-        const double* const from = curve.packed.data() + c * curve.packed.stride() + m - 1;
-        double* const to = points_.data() + c * stride_ + lane;
-        for (std::ptrdiff_t j = 0; j < m; ++j) to[j * step] = from[-j];
-        for (std::ptrdiff_t j = m; j < columns_; ++j) to[j * step] = 0.0;
-    }
 }
 
 void CurvesBeside::limit_rows(const WarpingOptions& options, std::ptrdiff_t n) {
@@ -133,24 +162,134 @@ bool CurvesBeside::distances(const WarpingOptions& options, const P& curve, std:
     }
     const Sweep sweep(options, dim_,
                       squares_are_in_domain_ && curve.packed.squares_are_in_domain());
-    if (sweep.kernel == nullptr) return false;
+    if (sweep.functions.sweep == nullptr) return false;
     limit_rows(options, n);
     const std::ptrdiff_t width = active_level().kernels->lanes;
     const std::ptrdiff_t skipped = first / width * width;
-    sweep.kernel({curve.packed.data(), curve.packed.stride(), points_.data() + skipped, stride_, n,
-                  ends_.data(), ends_.data() + n, (count_ - skipped + width - 1) / width,
-                  row_.data() + skipped});
+    sweep.functions.sweep({curve.packed.data(), curve.packed.stride(), points_.data() + skipped,
+                           stride_, n, ends_.data(), ends_.data() + n,
+                           (count_ - skipped + width - 1) / width, row_.data() + skipped});
+    finish(options, sweep.root, n, first, out, poller);
+    return true;
+}
+
+void CurvesBeside::finish(const WarpingOptions& options, const PutOffRoot& root, std::ptrdiff_t n,
+                          std::ptrdiff_t first, double* out, Poller& poller) const {
     std::int64_t points = 0;
     for (std::ptrdiff_t lane = first; lane < count_; ++lane) {
         const std::ptrdiff_t m = sizes_[static_cast<std::size_t>(lane)];
-        const double found =
-            sweep.root(row_.data()[(m - 1) * stride_ + lane]) / options.divisor(n, m);
+        const double found = root(row_.data()[(m - 1) * stride_ + lane]) / options.divisor(n, m);
         *out++ = found > options.cutoff ? std::numeric_limits<double>::infinity() : found;
         points += m;
     }
     const auto weight = static_cast<std::int64_t>(options.ground.weight(static_cast<double>(dim_)));
     if (poller.count_steps(n * points, weight)) throw Stopped();
+}
+
+bool CurvesBeside::pair_distances(const WarpingOptions& options, const P* const* Ps,
+                                  const Q* const* Qs, std::ptrdiff_t count, double* out,
+                                  Poller& poller) {
+    const std::ptrdiff_t n = Ps[0]->packed.size(), dim = Ps[0]->packed.dim();
+    // All lanes are swept, also if there are fewer pairs.
+    std::array<const Q*, most_lanes> all{};
+    for (std::ptrdiff_t lane = 0; lane < lanes_beside(); ++lane) {
+        all[static_cast<std::size_t>(lane)] = Qs[std::min(lane, count - 1)];
+    }
+    if (!saves_time(options, n, Qs[0]->packed.size(), dim, count) ||
+        gather(options, all.data(), lanes_beside(), false) < lanes_beside()) {
+        return false;
+    }
+    bool in_domain = squares_are_in_domain_;
+    for (std::ptrdiff_t k = 0; k < count; ++k) {
+        if (!needs_no_scale(options, Ps[k]->checked)) return false;
+        in_domain = in_domain && Ps[k]->packed.squares_are_in_domain();
+    }
+    const Sweep sweep(options, dim, in_domain);
+    if (sweep.functions.sweep_pairs == nullptr) return false;
+    points_of_each_.reserve(n * dim * stride_);
+    const auto curve = [&](std::ptrdiff_t lane) -> const PackedCurve& {
+        return Ps[std::min(lane, count - 1)]->packed;
+    };
+    interleave(curve, PointOrder::forward, stride_, n, stride_, points_of_each_.data());
+    count_ = count;
+    limit_rows(options, n);
+    sweep.functions.sweep_pairs({points_of_each_.data(), stride_, points_.data(), stride_, n,
+                                 ends_.data(), ends_.data() + n, kernels::most_packs_beside,
+                                 row_.data()});
+    finish(options, sweep.root, n, 0, out, poller);
     return true;
+}
+
+// The boxes of the columns, in reverse.
+void CurvesBeside::enclose(const WarpingOptions& options, const PackedCurve& curve,
+                           kernels::BoundsBeside& beside) {
+    const std::ptrdiff_t n = curve.size(), last = columns_ - 1;
+    const auto window = options.window.between(columns_, n);
+    reversed_.reserve(n + kernels::padding);
+    sides_.reserve(2 * dim_ * columns_);
+    for (std::ptrdiff_t c = 0; c < dim_; ++c) {
+        const double* const points = curve.data() + c * curve.stride();
+        BandedValues& boxes = boxes_[static_cast<std::size_t>(c)];
+        if (boxes.assign(columns_, n, window)) {
+            std::reverse_copy(points, points + n, reversed_.data());
+            boxes.enclose(reversed_.data(), active_level().kernels->extremes);
+            beside.low[c] = boxes.each().low + last;
+            beside.high[c] = boxes.each().high + last;
+        } else {
+            const auto [least, greatest] = std::minmax_element(points, points + n);
+            double* const low = sides_.data() + 2 * c * columns_;
+            std::fill_n(low, columns_, *least);
+            std::fill_n(low + columns_, columns_, *greatest);
+            beside.low[c] = low + last;
+            beside.high[c] = low + columns_ + last;
+        }
+    }
+}
+
+std::ptrdiff_t CurvesBeside::candidates(const WarpingOptions& options, double cutoff,
+                                        const P& curve, std::ptrdiff_t first,
+                                        std::ptrdiff_t* places, Poller& poller) {
+    const std::ptrdiff_t n = curve.packed.size(), count = count_ - first;
+    const std::ptrdiff_t fewest = sizes_[static_cast<std::size_t>(count_ - 1)];
+    const std::ptrdiff_t most = most_candidates(options, n, columns_, dim_, count);
+    if (most < 0 || fewest < 2 || !needs_no_scale(options, curve.checked)) return -1;
+    const Sweep sweep(options, dim_,
+                      squares_are_in_domain_ && curve.packed.squares_are_in_domain());
+    if (sweep.functions.bounds == nullptr) return -1;
+    const double divisor = options.divisor(n, columns_);
+    const double limit =
+        sweep.root.most_under(undivided(std::min(cutoff, options.cutoff), divisor));
+    const std::ptrdiff_t width = active_level().kernels->lanes;
+    const std::ptrdiff_t skipped = first / width * width;
+    double bounds[most_lanes];
+    kernels::BoundsBeside beside{};
+    beside.p = curve.packed.data();
+    beside.p_stride = curve.packed.stride();
+    beside.q = points_.data() + skipped;
+    beside.stride = stride_;
+    beside.rows = n;
+    beside.columns = fewest;
+    beside.has_last = fewest == columns_;
+    beside.packs = (count_ - skipped + width - 1) / width;
+    beside.most = limit;
+    beside.bounds = bounds + skipped;
+    enclose(options, curve.packed, beside);
+    sweep.functions.bounds(beside);
+    // Sums in another order than the table's have a slack, the largest of some distances has none.
+    const bool is_sum = options.recurrence != kernels::Recurrence::frechet;
+    const double slack = is_sum ? CostSums::slack(n, columns_) : 1.0;
+    std::ptrdiff_t found = 0;
+    std::int64_t points = 0;  // of the others
+    for (std::ptrdiff_t lane = first; lane < count_; ++lane) {
+        const bool is_above = bounds[lane] * slack > limit;
+        places[found] = lane - first;
+        found += is_above ? 0 : 1;
+        points += is_above ? sizes_[static_cast<std::size_t>(lane)] : 0;
+    }
+    poller.spend(columns_ * count);
+    if (found > most) return -1;
+    if (poller.count_steps(n * points, 0)) throw Stopped();
+    return found;
 }
 
 }  // namespace curvewise::warping

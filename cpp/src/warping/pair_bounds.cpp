@@ -21,6 +21,9 @@ constexpr std::ptrdiff_t most_narrowed_cells = 3 << 18;
 
 constexpr int point_level = 3;
 
+// Of a bound, by what a sweep adds to it before it gives up.
+constexpr double most_raise = 4.0;
+
 double sum_of(const double* terms, std::ptrdiff_t count) noexcept {
     return active_level().kernels->sum(terms, count);
 }
@@ -303,6 +306,8 @@ std::optional<CostToGo> PairBounds::cost_to_go(std::ptrdiff_t j, const PackedCur
     } else {
         sums_.add_up(rows + n - 1, -1, n, column_terms_.data(), m, they_add_);
     }
+    // Where the bounds are far below it, few cells are pruned.
+    if (sums_.all() * most_raise < most) return std::nullopt;
     return sums_.cost_to_go(most);
 }
 

@@ -230,6 +230,24 @@ void StripWalk::advance_narrowing(std::ptrdiff_t end) noexcept {
     }
 }
 
+bool StripWalk::is_hopeless(double most) const noexcept {
+    const auto are_above = [&](const double* first, const double* end) {
+        return std::all_of(first, end, [&](double value) { return value > most; });
+    };
+    // The neighbours of the active lanes are infinite.
+    const std::ptrdiff_t low = strip_.low_lane, end = strip_.high_lane + 2;
+    if (!are_above(strip_.before + low, strip_.before + end) ||
+        !are_above(strip_.before_last + low, strip_.before_last + end)) {
+        return false;
+    }
+    const double* const row = strip_.boundary;
+    const std::ptrdiff_t next = strip_.next_diagonal;
+    if (!are_above(row + next, row + std::max(strip_.last_column[0] + 1, next))) return false;
+    if (is_last_ && !plan_->problem_->open_end) return true;
+    const std::ptrdiff_t first_below = strip_.first_column[strip_.rows - 1];
+    return are_above(row + first_below, row + std::max(next + 1 - strip_.rows, first_below));
+}
+
 std::int64_t StripWalk::leave() noexcept {
     if (narrower_.is_on()) {
         narrower_.leave(strip_, strip_.first_column, strip_.last_column, is_last_);

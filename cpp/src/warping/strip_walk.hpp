@@ -22,6 +22,7 @@ class StripPlan {
               const Destination& destination) noexcept;
 
     std::ptrdiff_t height() const noexcept { return height_; }
+    bool is_resident() const noexcept { return resident_ != nullptr; }
     std::ptrdiff_t strips() const noexcept { return (region_.rows + height_ - 1) / height_; }
     std::ptrdiff_t workers() const noexcept { return workers_; }
     // What a row of the region may hold, in columns of the region.
@@ -67,6 +68,10 @@ class alignas(128) StripWalk {
     std::ptrdiff_t columns_to_enter(std::ptrdiff_t strip) const noexcept {
         return narrower_.is_on() ? 1 : plan_->columns(strip * plan_->height()).first;
     }
+    // Whether all values are above it of which a path to the end crosses one: those of the last two
+    // diagonals, of the row above the strip from there on, and of the strip's last row up to there,
+    // unless it is the table's, of which the last cell counts. Not of a strip in registers.
+    bool is_hopeless(double most) const noexcept;
     std::ptrdiff_t next_diagonal() const noexcept { return strip_.next_diagonal; }
     std::ptrdiff_t end_diagonal() const noexcept { return end_diagonal_; }
     // The columns of the last row that have been written, to stay.

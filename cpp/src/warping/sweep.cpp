@@ -29,14 +29,24 @@ std::ptrdiff_t chunk_of(const SweepProblem& problem) noexcept {
 // The same for threads that share a narrowed strip, which has few active columns.
 constexpr std::ptrdiff_t narrow_chunk = 64;
 
-// Whether to stop.
-bool sweep_strip(StripWalk& walk, std::ptrdiff_t strip, std::ptrdiff_t chunk, std::ptrdiff_t weight,
-                 Poller& poller) {
+// The same between two tests of whether a sweep gives up.
+constexpr std::ptrdiff_t give_up_chunk = 32;
+
+// Whether a sweep gives up within its strips.
+bool gives_up_early(const SweepProblem& problem, const StripPlan& plan,
+                    bool is_narrowing) noexcept {
+    return problem.give_up_above < infinity && !is_narrowing && !plan.is_resident();
+}
+
+// Sweeps a strip, or less where all that follows is above `most`. Whether to stop.
+bool sweep_strip(StripWalk& walk, std::ptrdiff_t strip, std::ptrdiff_t chunk, double most,
+                 std::ptrdiff_t weight, Poller& poller) {
     walk.enter(strip);
     walk.above_is_finished();
     while (walk.next_diagonal() < walk.end_diagonal()) {
         const std::ptrdiff_t end = std::min(walk.next_diagonal() + chunk, walk.end_diagonal());
         if (poller.count_steps(walk.advance(end), weight)) return true;
+        if (most < infinity && walk.is_hopeless(most)) break;
     }
     return poller.count_steps(walk.leave(), weight);
 }
@@ -113,10 +123,16 @@ void sweep(const SweepProblem& problem, const Region& region, bool starts_here, 
     }
     const std::ptrdiff_t weight = cell_weight(problem);
     if (others.empty()) {
-        const std::ptrdiff_t chunk = chunk_of(problem);
+        const bool gives_up = gives_up_early(problem, plan, is_narrowing);
+        const double most = gives_up ? problem.give_up_above : infinity;
+        const std::ptrdiff_t chunk =
+            gives_up ? std::min(chunk_of(problem), give_up_chunk) : chunk_of(problem);
         for (std::ptrdiff_t s = 0; s < plan.strips(); ++s) {
             if (problem.own != nullptr) first.ask_for_distances(s);
-            if (sweep_strip(first, s, chunk, weight, problem.poller)) throw Stopped();
+            if (sweep_strip(first, s, chunk, most, weight, problem.poller)) throw Stopped();
+            if (first.next_diagonal() < first.end_diagonal()) {
+                std::fill_n(boundary, region.columns, infinity);
+            }
             if (is_hopeless(problem, region, boundary)) return skip_rest(problem, plan, s + 1);
         }
     } else {

@@ -71,8 +71,9 @@ struct SweepProblem {
     // With fewer cells for each, starting threads costs more than they save: it takes up to a
     // millisecond until a second core is at work.
     std::ptrdiff_t cells_per_worker = std::ptrdiff_t{1} << 22;
-    // In one thread, a sweep of the whole table ends where all values of a row are above this.
+    // In one thread, a sweep of the whole table ends where every path to its end is above this.
     double give_up_above = std::numeric_limits<double>::infinity();
+    bool open_end = false;  // at any cell of the last row
     // In registers where that can be, as regions that are large enough are: for tests.
     bool is_always_resident = false;
     // Where the cost is the caller's own, in one thread.

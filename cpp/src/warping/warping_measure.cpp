@@ -101,12 +101,21 @@ class WarpingMeasure::Beside {
         return warping::CurvesBeside::most(measure.options_, n, m, dim);
     }
     std::ptrdiff_t gather(const WarpingMeasure& measure, const PreparedQ* const* curves,
-                          std::ptrdiff_t count) {
-        return curves_.gather(measure.options_, curves, count);
+                          std::ptrdiff_t count, bool has_cutoff) {
+        return curves_.gather(measure.options_, curves, count, has_cutoff);
     }
     bool values(const WarpingMeasure& measure, const PreparedP& P, std::ptrdiff_t first,
                 double* out, Poller& poller) {
         return curves_.distances(measure.options_, P, first, out, poller);
+    }
+    std::ptrdiff_t candidates(const WarpingMeasure& measure, double cutoff, const PreparedP& P,
+                              std::ptrdiff_t first, std::ptrdiff_t* places, Poller& poller) {
+        return curves_.candidates(measure.options_, cutoff, P, first, places, poller);
+    }
+    bool pair_values(const WarpingMeasure& measure, const PreparedP* const* Ps,
+                     const PreparedQ* const* Qs, std::ptrdiff_t count, double* out,
+                     Poller& poller) {
+        return curves_.pair_distances(measure.options_, Ps, Qs, count, out, poller);
     }
 
    private:

@@ -8,6 +8,7 @@
 #include "curves/checks.hpp"
 #include "runtime/stopwatch.hpp"
 #include "runtime/workers.hpp"
+#include "warping/box_tree.hpp"
 #include "warping/cheap_cells.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/dtw_pruned.hpp"
@@ -79,7 +80,6 @@ WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& 
                                const RangeScale& range, const pairwise::Call<SweepMemory>& call)
     : range_(range),
       degree_(degree(options.ground.metric)),
-      open_end_(options.open_end),
       prune_(options.prune),
       sweep_{*active_level().kernels,
              curves,
@@ -92,17 +92,18 @@ WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& 
              call.workers,
              call.poller,
              call.memory} {
+    sweep_.open_end = options.open_end;
     sweep_.own = options.ground.own;
     if (is_frechet() && sweep_.own == nullptr) root_ = put_off_root(sweep_.cost, options.ground);
 }
 
 double WarpingProblem::distance(double cutoff, bool looks_at_ends) {
     if (cutoff < infinity && range_.is_identity()) {
-        if (looks_at_ends && !ends_are_within(cutoff)) {
+        sweep_.give_up_above = most_in_table(cutoff);
+        if (looks_at_ends && cost_of_ends() > sweep_.give_up_above) {
             sweep_.poller.count_steps(sweep_.curves.rows() * sweep_.curves.columns());
             return infinity;
         }
-        sweep_.give_up_above = most_in_table(cutoff);
     }
     if (const std::optional<double> value = pruned_value()) return restore(*value);
     return restore(last_value(sweep_));
@@ -117,7 +118,7 @@ double WarpingProblem::narrowed_distance(const CostToGo& cost_to_go) {
 
 double WarpingProblem::last_value(const SweepProblem& problem) const {
     const Row& bottom = last_row(problem);
-    return bottom[open_end_ ? bottom.argmin() : problem.curves.columns() - 1];
+    return bottom[sweep_.open_end ? bottom.argmin() : problem.curves.columns() - 1];
 }
 
 WarpingInfo WarpingProblem::info() {
@@ -145,7 +146,7 @@ WarpingInfo WarpingProblem::info() {
 
 Alignment WarpingProblem::alignment() const {
     std::optional<Path> path = pruned_path();
-    if (!path) path = find_path(sweep_, open_end_);
+    if (!path) path = find_path(sweep_, sweep_.open_end);
     return {restore(path->value), {path->pairs.begin(), path->pairs.end()}};
 }
 
@@ -176,7 +177,7 @@ std::optional<double> WarpingProblem::frechet_with_info(WarpingInfo& info) const
 
 std::optional<double> WarpingProblem::dtw_with_info(WarpingInfo& info) const {
     DtwPruningRecord record;
-    const auto value = dtw_pruned(sweep_, {infinity, open_end_}, record);
+    const auto value = dtw_pruned(sweep_, {infinity, sweep_.open_end}, record);
     info.cells_swept = record.swept_cells + record.corridor_cells;
     info.lower = restore(record.lower);
     info.upper = restore(record.upper);
@@ -196,15 +197,15 @@ std::optional<double> WarpingProblem::pruned_value() const {
         return frechet_pruned(sweep_, {sweep_.give_up_above, true, steps}, record);
     }
     DtwPruningRecord record;
-    return dtw_pruned(sweep_, {sweep_.give_up_above, open_end_}, record);
+    return dtw_pruned(sweep_, {sweep_.give_up_above, sweep_.open_end}, record);
 }
 
 std::optional<Path> WarpingProblem::pruned_path() const {
     if (!prune_) return std::nullopt;
     if (is_frechet()) return frechet_path_in_corridor();
     DtwPruningRecord record;
-    std::optional<Path> path = dtw_path_pruned(sweep_, {infinity, open_end_}, record);
-    if (!path) path = find_path_of_cheap_cells(sweep_, open_end_);
+    std::optional<Path> path = dtw_path_pruned(sweep_, {infinity, sweep_.open_end}, record);
+    if (!path) path = find_path_of_cheap_cells(sweep_, sweep_.open_end);
     return path;
 }
 
@@ -218,14 +219,28 @@ std::optional<Path> WarpingProblem::frechet_path_in_corridor() const {
     narrow.columns = {Band(n, m, std::nullopt), corridor};
     // Threads are worth their start by the cells that are left.
     narrow.cells_per_worker *= std::max<std::int64_t>(1, n * m / corridor.cells);
-    return find_path(narrow, open_end_);
+    return find_path(narrow, sweep_.open_end);
 }
 
-// Every path holds the first and the last cell, unless an end is open.
-bool WarpingProblem::ends_are_within(double cutoff) const {
+// Every path holds the first and the last cell, unless an end is open. Sums in the table's order
+// need no slack.
+double WarpingProblem::cost_of_ends() const {
     const std::ptrdiff_t n = sweep_.curves.rows(), m = sweep_.curves.columns();
-    if (!sweep_.open_begin && restore(lone_cell(sweep_, 0, 0)) > cutoff) return false;
-    return open_end_ || restore(lone_cell(sweep_, n - 1, m - 1)) <= cutoff;
+    const double first = sweep_.open_begin ? 0.0 : cell(0, 0);
+    const double last = sweep_.open_end ? 0.0 : cell(n - 1, m - 1);
+    return is_frechet() || (n == 1 && m == 1) ? std::max(first, last) : first + last;
+}
+
+// The ground distance, in the unit of the table.
+double WarpingProblem::cell(std::ptrdiff_t i, std::ptrdiff_t j) const {
+    if (sweep_.own != nullptr || !has_box_bounds(sweep_.cost.metric)) {
+        return lone_cell(sweep_, i, j);
+    }
+    const PointAccess P(sweep_.curves.p, PointOrder::forward);
+    const PointAccess Q(sweep_.curves.q, PointOrder::reversed);
+    return with_norm(sweep_.cost.metric, [&](auto norm) {
+        return point_distance<decltype(norm)>(P, i, Q, j, sweep_.curves.dim());
+    });
 }
 
 }  // namespace curvewise::warping

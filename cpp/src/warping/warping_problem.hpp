@@ -76,12 +76,12 @@ class WarpingProblem {
     std::optional<double> pruned_value() const;
     std::optional<Path> pruned_path() const;
     std::optional<Path> frechet_path_in_corridor() const;
-    bool ends_are_within(double cutoff) const;
+    double cost_of_ends() const;
+    double cell(std::ptrdiff_t i, std::ptrdiff_t j) const;
 
     RangeScale range_;
     int degree_;       // of homogeneity in the coordinates
     PutOffRoot root_;  // of the values that the table holds
-    bool open_end_;
     bool prune_;
     SweepProblem sweep_;
 };

@@ -1,45 +1,83 @@
-// One curve with several others, each in a lane (see beside.hpp): the table is swept row by row, so
-// that a band costs its own cells alone. Lanes of an anti-diagonal, as sweep.inl.hpp has them, are
-// mostly empty where a band, or a curve, has few cells. The operations of a cell are the same. The
-// kernel of each level includes this file inside its anonymous namespace.
+// Several pairs, each in a lane (see beside.hpp): the table is swept row by row, so that a band
+// costs its own cells alone. Lanes of an anti-diagonal, as sweep.inl.hpp has them, are mostly empty
+// where a band, or a curve, has few cells. The operations of a cell are the same. The kernel of
+// each level includes this file inside its anonymous namespace.
 
 #include "sweep.inl.hpp"
 
-// The ground distance from a row's point to a column's points, with coordinate c of a pack at
-// q + c * stride.
-template <int dim>
-struct SquaresBeside {
+// What a column's points are compared with: a row's point, the same in all lanes; a point in each
+// lane; or the nearest point of a box. The difference in coordinate c of pack number k.
+template <int fixed_dim>
+struct OnePoint {
+    static constexpr int dim = fixed_dim;
     Pack point[dim];
 
-    SquaresBeside(const Beside& beside, std::ptrdiff_t row) noexcept {
+    OnePoint(const double* p, std::ptrdiff_t p_stride, std::ptrdiff_t row) noexcept {
+        for (int c = 0; c < dim; ++c) point[c] = simd::pset1<Pack>(p[c * p_stride + row]);
+    }
+    Pack difference(const Pack& q, int c, int) const noexcept { return simd::psub(point[c], q); }
+};
+
+template <int fixed_dim>
+struct PointOfEach {
+    static constexpr int dim = fixed_dim;
+    const double* points;
+    std::ptrdiff_t stride;
+
+    PointOfEach(const double* p, std::ptrdiff_t p_stride, std::ptrdiff_t row) noexcept
+        : points(p + row * dim * p_stride), stride(p_stride) {}
+    Pack difference(const Pack& q, int c, int k) const noexcept {
+        return simd::psub(load(points + c * stride + k * width), q);
+    }
+};
+
+template <int fixed_dim>
+struct NearestInBox {
+    static constexpr int dim = fixed_dim;
+    Pack low[dim];
+    Pack high[dim];
+
+    NearestInBox(const BoundsBeside& beside, std::ptrdiff_t column) noexcept {
         for (int c = 0; c < dim; ++c) {
-            point[c] = simd::pset1<Pack>(beside.p[c * beside.p_stride + row]);
+            low[c] = simd::pset1<Pack>(beside.low[c][-column]);
+            high[c] = simd::pset1<Pack>(beside.high[c][-column]);
         }
     }
-    Pack of(const double* q, std::ptrdiff_t stride) const noexcept {
-        Pack sum = square(q, 0);
-        for (int c = 1; c < dim; ++c) sum = simd::padd(sum, square(q + c * stride, c));
+    Pack difference(const Pack& q, int c, int) const noexcept {
+        return simd::psub(simd::pmax(simd::pmin(q, high[c]), low[c]), q);
+    }
+};
+
+// The ground distance to a column's points, with coordinate c of a pack at q + c * stride.
+struct SquaresBeside {
+    template <class Points>
+    static Pack of(const Points& points, const double* q, std::ptrdiff_t stride, int k) noexcept {
+        Pack sum = square(points, q, 0, k);
+        for (int c = 1; c < Points::dim; ++c) {
+            sum = simd::padd(sum, square(points, q + c * stride, c, k));
+        }
         return sum;
     }
-    Pack difference(const double* q, int c) const noexcept { return simd::psub(point[c], load(q)); }
 
    private:
-    Pack square(const double* q, int c) const noexcept {
-        const Pack delta = difference(q, c);
+    template <class Points>
+    static Pack square(const Points& points, const double* q, int c, int k) noexcept {
+        const Pack delta = points.difference(load(q), c, k);
         return simd::pmul(delta, delta);
     }
 };
 
-struct AbsolutesBeside : SquaresBeside<1> {
-    using SquaresBeside<1>::SquaresBeside;
-    Pack of(const double* q, std::ptrdiff_t) const noexcept { return simd::pabs(difference(q, 0)); }
+struct AbsolutesBeside {
+    template <class Points>
+    static Pack of(const Points& points, const double* q, std::ptrdiff_t, int k) noexcept {
+        return simd::pabs(points.difference(load(q), 0, k));
+    }
 };
 
-template <int dim>
-struct RootsBeside : SquaresBeside<dim> {
-    using SquaresBeside<dim>::SquaresBeside;
-    Pack of(const double* q, std::ptrdiff_t stride) const noexcept {
-        return UniformRoot::of(SquaresBeside<dim>::of(q, stride));
+struct RootsBeside {
+    template <class Points>
+    static Pack of(const Points& points, const double* q, std::ptrdiff_t stride, int k) noexcept {
+        return UniformRoot::of(SquaresBeside::of(points, q, stride, k));
     }
 };
 
@@ -49,20 +87,22 @@ struct CellsBeside {
     Pack left[packs];
     Pack diagonal[packs];
 
-    template <class GroundCost, class Above>
-    void step(const GroundCost& cost, const double* q, std::ptrdiff_t stride, double* to,
+    template <class GroundCost, class Points, class Above>
+    void step(const Points& points, const double* q, std::ptrdiff_t stride, double* to,
               const Above& above) noexcept {
         for (int k = 0; k < packs; ++k) {
             const Pack up = above(to + k * width);
-            left[k] = Rule::cell(up, left[k], diagonal[k], cost.of(q + k * width, stride));
+            const Pack d = GroundCost::of(points, q + k * width, stride, k);
+            left[k] = Rule::cell(up, left[k], diagonal[k], d);
             diagonal[k] = up;
             store(to + k * width, left[k]);
         }
     }
 };
 
-template <class Rule, class GroundCost, int dim, int packs>
+template <class Rule, class GroundCost, class Points, int packs>
 void sweep_beside(const Beside& beside) noexcept {
+    constexpr int dim = Points::dim;
     const Pack infinite = simd::pset1<Pack>(std::numeric_limits<double>::infinity());
     const auto nothing = [&](const double*) { return infinite; };
     const std::ptrdiff_t stride = beside.stride;
@@ -78,16 +118,16 @@ void sweep_beside(const Beside& beside) noexcept {
             cells.diagonal[k] =
                 has_diagonal ? load(beside.row + (first - 1) * stride + k * width) : infinite;
         }
-        const GroundCost cost(beside, i);
+        const Points points(beside.p, beside.p_stride, i);
         const std::ptrdiff_t last_below = last_above < last ? last_above : last;
         const double* q = beside.q + first * dim * stride;
         double* to = beside.row + first * stride;
         std::ptrdiff_t j = first;
         for (; j <= last_below; ++j, q += dim * stride, to += stride) {
-            cells.step(cost, q, stride, to, load);
+            cells.template step<GroundCost>(points, q, stride, to, load);
         }
         for (; j <= last; ++j, q += dim * stride, to += stride) {
-            cells.step(cost, q, stride, to, nothing);
+            cells.template step<GroundCost>(points, q, stride, to, nothing);
         }
         first_above = first;
         last_above = last;
@@ -96,36 +136,75 @@ void sweep_beside(const Beside& beside) noexcept {
 
 template <class Rule, class GroundCost, int dim>
 void sweep_packs_beside(const Beside& beside) noexcept {
+    using Points = OnePoint<dim>;
     switch (beside.packs) {
         case 1:
-            return sweep_beside<Rule, GroundCost, dim, 1>(beside);
+            return sweep_beside<Rule, GroundCost, Points, 1>(beside);
         case 2:
-            return sweep_beside<Rule, GroundCost, dim, 2>(beside);
+            return sweep_beside<Rule, GroundCost, Points, 2>(beside);
         case 3:
-            return sweep_beside<Rule, GroundCost, dim, 3>(beside);
+            return sweep_beside<Rule, GroundCost, Points, 3>(beside);
         default:
-            return sweep_beside<Rule, GroundCost, dim, 4>(beside);
+            return sweep_beside<Rule, GroundCost, Points, 4>(beside);
     }
 }
 
-// Null for other ground distances and dimensions.
+// Distances are added up or, for Fréchet, the largest counts. The sum of DTW in either form is at
+// least that of the columns' least distances, each paid for once.
+template <bool is_largest, class GroundCost, int dim>
+void bounds_beside(const BoundsBeside& beside) noexcept {
+    constexpr std::ptrdiff_t columns_between_tests = 8;
+    const std::ptrdiff_t stride = beside.stride;
+    const std::ptrdiff_t end = beside.has_last ? beside.columns - 1 : beside.columns;
+    const auto with = [](const Pack& total, const Pack& d) {
+        return is_largest ? simd::pmax(total, d) : simd::padd(total, d);
+    };
+    const OnePoint<dim> first(beside.p, beside.p_stride, 0);
+    const OnePoint<dim> last(beside.p, beside.p_stride, beside.rows - 1);
+    for (std::ptrdiff_t k = 0; k < beside.packs; ++k) {
+        const double* const q = beside.q + k * width;
+        Pack total = GroundCost::of(first, q, stride, 0);
+        if (beside.has_last) {
+            total = with(total, GroundCost::of(last, q + end * dim * stride, stride, 0));
+        }
+        for (std::ptrdiff_t j = 1; j < end;) {
+            if (simd::predux_min(total) > beside.most) break;
+            const std::ptrdiff_t stop =
+                end - j < columns_between_tests ? end : j + columns_between_tests;
+            for (; j < stop; ++j) {
+                const NearestInBox<dim> box(beside, j);
+                total = with(total, GroundCost::of(box, q + j * dim * stride, stride, 0));
+            }
+        }
+        store(beside.bounds + k * width, total);
+    }
+}
+
+template <class Rule, class GroundCost, int dim>
+constexpr BesideKernels beside_kernels() noexcept {
+    return {sweep_packs_beside<Rule, GroundCost, dim>,
+            sweep_beside<Rule, GroundCost, PointOfEach<dim>, most_packs_beside>,
+            bounds_beside<std::is_same_v<Rule, DiscreteFrechet>, GroundCost, dim>};
+}
+
+// None for other ground distances and dimensions.
 template <class Rule>
-BesideFunction select_beside_of(Cost cost, std::ptrdiff_t dim) noexcept {
-    if (cost.is_own) return nullptr;
+BesideKernels select_beside_of(Cost cost, std::ptrdiff_t dim) noexcept {
+    if (cost.is_own) return {};
     if (cost.metric == Metric::cityblock && dim == 1) {
-        return sweep_packs_beside<Rule, AbsolutesBeside, 1>;
+        return beside_kernels<Rule, AbsolutesBeside, 1>();
     }
     if (cost.metric == Metric::sqeuclidean) {
-        if (dim == 1) return sweep_packs_beside<Rule, SquaresBeside<1>, 1>;
-        if (dim == 2) return sweep_packs_beside<Rule, SquaresBeside<2>, 2>;
+        if (dim == 1) return beside_kernels<Rule, SquaresBeside, 1>();
+        if (dim == 2) return beside_kernels<Rule, SquaresBeside, 2>();
     }
     if (cost.metric == Metric::euclidean && cost.squares_in_domain && dim == 2) {
-        return sweep_packs_beside<Rule, RootsBeside<2>, 2>;
+        return beside_kernels<Rule, RootsBeside, 2>();
     }
-    return nullptr;
+    return {};
 }
 
-BesideFunction select_beside(Recurrence recurrence, Cost cost, std::ptrdiff_t dim) noexcept {
+BesideKernels select_beside(Recurrence recurrence, Cost cost, std::ptrdiff_t dim) noexcept {
     switch (recurrence) {
         case Recurrence::dtw_symmetric1:
             return select_beside_of<DtwSymmetric1>(cost, dim);

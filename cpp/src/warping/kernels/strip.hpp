@@ -129,8 +129,8 @@ struct KernelSet {
     std::ptrdiff_t line_height;
     NarrowFunction narrow;
     std::ptrdiff_t lanes;  // of a SIMD vector: the rows that it takes
-    // One curve with several at once. Null for what is swept one by one.
-    BesideFunction (*beside)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim) noexcept;
+    // Several pairs at once.
+    BesideKernels (*beside)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim) noexcept;
     ArcFunction arcs;
     SoftForward soft_forward;
     SoftForward soft_forward_with_shares;
