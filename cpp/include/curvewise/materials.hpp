@@ -21,6 +21,10 @@
 /// Swift: isotropic hardening by a power law, |s| <= K (e0 + p)^n (Swift, J. Mechanics and Physics
 /// of Solids 1, 1952). Exact for steps of any length.
 ///
+/// UpdatedVoceChaboche: ChabocheVoce with a second isotropic term, - D (1 - exp(-a p)), for steels
+/// whose yield stress first falls (Hartloper, de Castro e Sousa & Lignos, J. Structural Engineering
+/// 147, 2021). Exact for steps of any length.
+///
 /// JohnsonCook: isotropic hardening at a rate of strain, |s| <= (A + B p^n) (1 + C ln(rate /
 /// reference_rate)) (Johnson & Cook, 7th International Symposium on Ballistics, 1983). Exact for
 /// steps of any length.
@@ -107,6 +111,12 @@ struct JohnsonCook {
     double reference_rate = 1.0;  ///< at which C has no effect
 };
 
+/// Parameters, in order: E, yield, Q, b, D, a, then C1, gamma1, C2, gamma2, ...
+struct UpdatedVoceChaboche {
+    static constexpr const char* material = "updated-voce-chaboche";
+    int backstresses = 2;  ///< 0 to 99
+};
+
 /// Calls visit(name, value) for each option.
 template <class Visit>
 void visit_options(ChabocheVoce& material, Visit&& visit) {
@@ -121,6 +131,10 @@ void visit_options(YoshidaUemori& material, Visit&& visit) {
 }
 
 template <class Visit>
+void visit_options(UpdatedVoceChaboche& material, Visit&& visit) {
+    visit("backstresses", material.backstresses);
+}
+template <class Visit>
 void visit_options(JohnsonCook& material, Visit&& visit) {
     visit("rate", material.rate);
     visit("reference_rate", material.reference_rate);
@@ -130,7 +144,7 @@ void visit_options(Swift& /*material*/, Visit&& /*visit*/) {}
 
 /// The list of materials: one of them, chosen by the type of its options. C, Fortran and Python
 /// have every material that is added here.
-using Material = std::variant<ChabocheVoce, YoshidaUemori, Swift, JohnsonCook>;
+using Material = std::variant<ChabocheVoce, YoshidaUemori, Swift, JohnsonCook, UpdatedVoceChaboche>;
 
 /// Calls visit(material), with the default options of every material in the order of the list.
 template <std::size_t place = 0, class Visit>

@@ -1,7 +1,7 @@
-// The Chaboche-Voce point. Plastic flow keeps its direction n; p is the plastic strain since it
-// began. Then n s = yield + R + sum of n X_k, and each of the terms is closed in p: from its start
-// it rises by amplitude (1 - exp(-rate p)) / rate. The strain behind the yield point is p plus the
-// rise of the stress over Young's modulus:
+// The Chaboche-Voce point, with one or several isotropic terms R in its sum. Plastic flow keeps its
+// direction n; p is the plastic strain since it began. Then n s = yield + R + sum of n X_k, and
+// each of the terms is closed in p: from its start it rises by amplitude (1 - exp(-rate p)) / rate.
+// The strain behind the yield point is p plus the rise of the stress over Young's modulus:
 //
 //     strain(p) = p + integral of (n s)'(p) / E(p)
 //
@@ -25,7 +25,7 @@ namespace curvewise::materials {
 // The place of the yield stress among the parameters; Q, b, C1, gamma1, C2, ... follow it.
 inline std::size_t place_of_yield(Modulus modulus) { return modulus == Modulus::constant ? 1 : 3; }
 
-// R, or n X of a back stress, while flow keeps its direction.
+// A term of isotropic hardening R, or n X of a back stress, while flow keeps its direction.
 template <class Number>
 struct Term {
     Number start, amplitude, rate;
@@ -76,8 +76,8 @@ inline Behind strain_of(const Flow<double>& flow, double p, std::vector<double>&
             (bend + steepness * modulus.rate * (E - modulus.limit) / E) / E};
 }
 
-// The root of the flow's strain = target > 0, nearly: the next iterate is it to rounding. R alone
-// can fall, by `fall` at most. `falls` are those of the root.
+// The root of the flow's strain = target > 0, nearly: the next iterate is it to rounding. Isotropic
+// terms alone can fall, by `fall` at most. `falls` are those of the root.
 inline double plastic_strain(const Flow<double>& flow, double target, double fall,
                              std::vector<double>& falls) {
     const YoungsModulus<double>& modulus = flow.modulus;
@@ -119,12 +119,14 @@ inline double plastic_strain(const Flow<double>& flow, double target, double fal
     return p;
 }
 
-template <class Number>
-class ChabocheVocePoint {
+// The first terms, so many of them, are isotropic: behind the yield stress, the limit and the rate
+// of each.
+template <class Number, std::size_t isotropic>
+class SaturatingPoint {
    public:
-    ChabocheVocePoint(const ChabocheVoce& material, const Number* parameters, std::size_t count)
-        : modulus_(parameters, material.modulus),
-          constants_(parameters + place_of_yield(material.modulus), parameters + count),
+    SaturatingPoint(Modulus modulus, const Number* parameters, std::size_t count)
+        : modulus_(parameters, modulus),
+          constants_(parameters + place_of_yield(modulus), parameters + count),
           state_((constants_.size() - 1) / 2, Number(0.0)),
           flow_{std::vector<Term<Number>>(state_.size()), modulus_},
           plain_{std::vector<Term<double>>(state_.size()), modulus_.plain()},
@@ -136,9 +138,10 @@ class ChabocheVocePoint {
     Number advance(const Increment& increment) {
         const Number slope = modulus_.after(p_), trial = stress_ + slope * increment;
         Number centre(0.0);
-        for (std::size_t k = 1; k < state_.size(); ++k) centre += state_[k];
+        for (std::size_t k = isotropic; k < state_.size(); ++k) centre += state_[k];
         const double n = value_of(trial) < value_of(centre) ? -1.0 : 1.0;
-        const Number excess = n * (trial - centre) - (constants_[0] + state_[0]);
+        Number excess = n * (trial - centre) - (constants_[0] + state_[0]);
+        for (std::size_t k = 1; k < isotropic; ++k) excess -= state_[k];
         if (value_of(excess) <= 0.0) return stress_ = trial;
         return stress_ = flow(n, excess / slope);
     }
@@ -150,14 +153,18 @@ class ChabocheVocePoint {
         for (std::size_t k = 0; k < state_.size(); ++k) {
             const Number &limit_or_slope = constants_[2 * k + 1], &rate = constants_[2 * k + 2];
             // R tends to Q with the rate b, n X rises with the slope C.
-            const Number start = k == 0 ? state_[0] : n * state_[k];
+            const bool is_isotropic = k < isotropic;
+            const Number start = is_isotropic ? state_[k] : n * state_[k];
             const Number amplitude =
-                k == 0 ? rate * (limit_or_slope - start) : limit_or_slope - rate * start;
+                is_isotropic ? rate * (limit_or_slope - start) : limit_or_slope - rate * start;
             flow_.terms[k] = {start, amplitude, rate};
             plain_.terms[k] = {value_of(start), value_of(amplitude), value_of(rate)};
         }
         plain_.p0 = value_of(p_);
-        const double fall = std::max(0.0, value_of(state_[0]) - value_of(constants_[1]));
+        double fall = 0.0;
+        for (std::size_t k = 0; k < isotropic; ++k) {
+            fall += std::max(0.0, value_of(state_[k]) - value_of(constants_[2 * k + 1]));
+        }
         const double p = plastic_strain(plain_, value_of(strain), fall, falls_);
 
         // The last step to the root, whose derivatives are those of the implicit function. The step
@@ -178,7 +185,7 @@ class ChabocheVocePoint {
         for (std::size_t k = 0; k < state_.size(); ++k) {
             const Number after = flow_.terms[k].start + rises_[k] +
                                  plain_.terms[k].amplitude * (1.0 + falls_[k]) * rest;
-            state_[k] = k == 0 ? after : n * after;
+            state_[k] = k < isotropic ? after : n * after;
             stress += after;
         }
         p_ += p + rest;
@@ -193,6 +200,13 @@ class ChabocheVocePoint {
     std::vector<Number> rises_;
     std::vector<double> falls_;  // exp(-rate p) - 1 of each term
     Number stress_{}, p_{};
+};
+
+template <class Number>
+class ChabocheVocePoint : public SaturatingPoint<Number, 1> {
+   public:
+    ChabocheVocePoint(const ChabocheVoce& material, const Number* parameters, std::size_t count)
+        : SaturatingPoint<Number, 1>(material.modulus, parameters, count) {}
 };
 
 template <>

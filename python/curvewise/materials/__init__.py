@@ -14,6 +14,7 @@ from .johnson_cook import JohnsonCook
 from .material import Material
 from .point import Parameter
 from .swift import Swift
+from .updated_voce_chaboche import UpdatedVoceChaboche
 from .yoshida_uemori import YoshidaUemori
 
 __all__ = [
@@ -24,11 +25,11 @@ __all__ = [
     "Material",
     "Parameter",
     "Swift",
+    "UpdatedVoceChaboche",
     "YoshidaUemori",
 ]
 __dir__ = names_alone(__all__)
 
-MATERIALS: dict[str, type[Material]] = {
-    kind.name: kind for kind in (ChabocheVoce, YoshidaUemori, Swift, JohnsonCook)
-}
+_KINDS = (ChabocheVoce, YoshidaUemori, Swift, JohnsonCook, UpdatedVoceChaboche)
+MATERIALS: dict[str, type[Material]] = {kind.name: kind for kind in _KINDS}
 """The materials by the names that commands and studies call them by."""

@@ -10,7 +10,7 @@ from .._bounds import Bounds, Log
 from .material import Material
 from .readings import Span
 
-__all__ = ["ChabocheVoce"]
+__all__ = ["ChabocheVoce", "backstress_bounds"]
 
 
 @dataclass(frozen=True)
@@ -65,18 +65,30 @@ class ChabocheVoce(Material):
             "Q": (-1.2 * span.highest_yield, 4.0 * span.stress),
             "b": Log(0.02 / span.path, 200.0 / span.path),
         }
-        # The range of rates is divided among the back stresses, the first the fastest, so that they
-        # do not change places. It extends from saturation within a thousandth of a branch to almost
-        # a line.
-        slowest, fastest = 0.02 / span.longest_branch, 2000.0 / span.shortest_branch
-        for k in range(self.backstresses):
-            first, last = (1.0 - (k + f) / self.backstresses for f in (1.15, -0.15))
-            low, high = (
-                slowest * (fastest / slowest) ** min(max(place, 0.0), 1.0)
-                for place in (first, last)
-            )
-            bounds[f"gamma{k + 1}"] = Log(low, high)
-            # The back stress saturates at C / gamma, and rises by C times a branch if it does not.
-            softest, stiffest = (max(rate, 1.0 / span.longest_branch) for rate in (low, high))
-            bounds[f"C{k + 1}"] = Log(0.01 * span.stress * softest, 2.0 * span.stress * stiffest)
-        return bounds
+        return bounds | backstress_bounds(self.backstresses, span)
+
+
+def backstress_bounds(count: int, span: Span) -> dict[str, Any]:
+    """Return the bounds of C and gamma of each back stress.
+
+    Parameters
+    ----------
+    count : int
+    span : Span
+        The readings of the tests.
+    """
+    bounds: dict[str, Any] = {}
+    # The range of rates is divided among the back stresses, the first the fastest, so that they
+    # do not change places. It extends from saturation within a thousandth of a branch to almost
+    # a line.
+    slowest, fastest = 0.02 / span.longest_branch, 2000.0 / span.shortest_branch
+    for k in range(count):
+        first, last = (1.0 - (k + f) / count for f in (1.15, -0.15))
+        low, high = (
+            slowest * (fastest / slowest) ** min(max(place, 0.0), 1.0) for place in (first, last)
+        )
+        bounds[f"gamma{k + 1}"] = Log(low, high)
+        # The back stress saturates at C / gamma, and rises by C times a branch if it does not.
+        softest, stiffest = (max(rate, 1.0 / span.longest_branch) for rate in (low, high))
+        bounds[f"C{k + 1}"] = Log(0.01 * span.stress * softest, 2.0 * span.stress * stiffest)
+    return bounds

@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -126,7 +127,10 @@ def _runge_kutta(state: Array, h: float, rates: Callable[[Array], Array]) -> Arr
 
 
 class _ChabocheVoce(_Point):
-    """The state is p, R, X1, X2 and so on."""
+    """The state is p, the isotropic terms, X1, X2 and so on."""
+
+    # Limits of the isotropic terms with their signs, and rates.
+    isotropic: ClassVar[tuple[tuple[tuple[str, float], str], ...]] = ((("Q", 1.0), "b"),)
 
     def __init__(self, constants: Mapping[str, float]) -> None:
         super().__init__(constants)
@@ -134,31 +138,36 @@ class _ChabocheVoce(_Point):
         self.C, self.gamma = (
             np.array([constants[f"{name}{k + 1}"] for k in range(count)]) for name in ("C", "gamma")
         )
-        self.state = np.zeros(2 + count)
+        self.limit = np.array([sign * constants[name] for (name, sign), _ in self.isotropic])
+        self.rate = np.array([constants[name] for _, name in self.isotropic])
+        self._back = 1 + len(self.isotropic)
+        self.state = np.zeros(self._back + count)
         self._is_back = False  # in strain, from where it has been
 
     @property
     def centre(self) -> float:
-        return float(self.state[2:].sum())
+        return float(self.state[self._back :].sum())
 
     @property
     def radius(self) -> float:
-        return float(self.constants["yield"] + self.state[1])
+        return float(self.constants["yield"] + self.state[1 : self._back].sum())
 
     def flow(self, n: float, left: float) -> float:
+        back = self._back
+
         def by_p(state: Array) -> Array:
             rates = np.empty_like(state)
             rates[0] = 1.0
-            rates[1] = self.constants["b"] * (self.constants["Q"] - state[1])
-            rates[2:] = n * self.C - self.gamma * state[2:]
+            rates[1:back] = self.rate * (self.limit - state[1:back])
+            rates[back:] = n * self.C - self.gamma * state[back:]
             return rates
 
         def strain_by_p(state: Array) -> float:
             rates = by_p(state)
-            hardening = float(rates[1] + n * rates[2:].sum())
+            hardening = float(rates[1:back].sum() + n * rates[back:].sum())
             return 1.0 + hardening / self.modulus(float(state[0]))
 
-        short = 0.02 / max(self.constants["b"], self.gamma.max(initial=0.0), 1.0)
+        short = 0.02 / max(self.rate.max(), self.gamma.max(initial=0.0), 1.0)
         if strain_by_p(self.state) > 0.5:
             h = min(left, short) if self._is_back else left
             self._is_back = h < left
@@ -179,6 +188,10 @@ class _ChabocheVoce(_Point):
             low, p = (low, middle) if stepped(middle)[1] > left else (middle, p)
         self.state, strain = stepped(p)
         return strain
+
+
+class _UpdatedVoceChaboche(_ChabocheVoce):
+    isotropic = ((("Q", 1.0), "b"), (("D", -1.0), "a"))
 
 
 class _YoshidaUemori(_Point):
@@ -312,4 +325,5 @@ _LAWS: dict[str, Callable[[Mapping[str, float]], _Point]] = {
     "yoshida-uemori": _YoshidaUemori,
     "swift": _Swift,
     "johnson-cook": _JohnsonCook,
+    "updated-voce-chaboche": _UpdatedVoceChaboche,
 }

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from curvewise.materials import ChabocheVoce, JohnsonCook, Material, Swift, YoshidaUemori
+from curvewise.materials import (
+    ChabocheVoce,
+    JohnsonCook,
+    Material,
+    Swift,
+    UpdatedVoceChaboche,
+    YoshidaUemori,
+)
 
 _STEEL = {"E": 200e3, "yield": 300.0, "Q": 50.0, "b": 8.0}
 _BACK = {"C1": 80e3, "gamma1": 400.0, "C2": 5e3, "gamma2": 20.0}
@@ -20,6 +27,7 @@ METALS: list[tuple[Material, dict[str, float]]] = [
         YoshidaUemori(growth="power", modulus="decaying"),
         _SHEET | _DECAY | {"C1": 0.01, "C2": 0.3},
     ),
+    (UpdatedVoceChaboche(), _STEEL | _BACK | {"Q": 100.0, "D": 60.0, "a": 150.0}),
     (JohnsonCook(), {"E": 200e3, "A": 300.0, "B": 600.0, "n": 0.4, "C": 0.02}),
     (Swift(), {"E": 200e3, "K": 720.0, "e0": 0.004, "n": 0.21}),
 ]

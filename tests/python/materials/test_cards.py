@@ -12,7 +12,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from curvewise.materials import ChabocheVoce, YoshidaUemori
+from curvewise.materials import (
+    ChabocheVoce,
+    JohnsonCook,
+    Swift,
+    UpdatedVoceChaboche,
+    YoshidaUemori,
+)
 from curvewise.solvers import read_calculix_dat, read_card
 from curvewise.solvers.cards import FORMATS
 from curvewise.solvers.cards.content import as_field
@@ -117,6 +123,23 @@ def test_mfront_and_code_aster() -> None:
     assert made["ELAS"] == {"E": 200e3, "NU": 0.3}
     expected = {"R_0": 300, "R_I": 250, "B": 8, "C1_I": 80e3, "G1_0": 400, "C2_I": 5e3, "G2_0": 20}
     assert made["CIN2_CHAB"] == expected | {"K": 1, "W": 0, "A_I": 1}
+
+
+def test_isotropic_laws_and_the_updated_model() -> None:
+    swift = Swift().card({"E": 200e3, "K": 720.0, "e0": 0.004, "n": 0.21}, "mfront")
+    radius = 720.0 * 0.004**0.21
+    assert f'"Swift" {{R0 : {radius!r}, p0 : 0.004, n : 0.21}}' in swift
+    cook = {"E": 200e3, "A": 350.0, "B": 275.0, "n": 0.36, "C": 0.022}
+    lines = body(JohnsonCook(reference_rate=0.001).card(cook, "ls-dyna"), "ls-dyna")
+    assert lines[0] == "*MAT_SIMPLIFIED_JOHNSON_COOK_TITLE+"
+    assert numbers_of(lines[2:3]) == [1, 200e3, 0.3, 1]
+    assert numbers_of(lines[3:4]) == [350, 275, 0.36, 0.022, 0, 0, 0, 0.001]
+    updated = UpdatedVoceChaboche().card(STEEL | {"Q": 50.0, "D": 60.0, "a": 150.0}, "mfront")
+    assert 'isotropic_hardening : "Voce" {R0 : 0.0, Rinf : 50.0, b : 8.0},' in updated
+    assert 'isotropic_hardening : "Voce" {R0 : 0.0, Rinf : -60.0, b : 150.0},' in updated
+    assert updated.count("Armstrong-Frederick") == 3  # with the source
+    with pytest.raises(ValueError, match=r"Ansys has no Swift; .* card of MFront "):
+        Swift().card({"E": 200e3, "K": 720.0, "e0": 0.004, "n": 0.21}, "ansys")
 
 
 def test_comments_say_what_the_card_is() -> None:

@@ -39,7 +39,7 @@ def steels(draw: st.DrawFn, material: Material, usual: dict[str, float]) -> dict
     if isinstance(material, YoshidaUemori):
         low_and_high |= {"C1": (1e-3, 0.1), "C2": (0.1, 1.0)}
     found = {name: between(*low_and_high[name], draw(share)) for name in material.names}
-    if "Q" in found and draw(st.booleans()):
+    if isinstance(material, ChabocheVoce) and draw(st.booleans()):
         found["Q"] = -0.3 * found["yield"]
     return found
 

@@ -19,6 +19,9 @@ def _write(content: CardContent) -> list[str]:
         f'isotropic_hardening : "Linear" {{R0 : {p["yield"]!r}}}',
         f'isotropic_hardening : "Voce" {{R0 : 0.0, Rinf : {p["Q"]!r}, b : {p["b"]!r}}}',
     ]
+    if "D" in p:
+        fall = f"R0 : 0.0, Rinf : {-p['D']!r}, b : {p['a']!r}"
+        rules.append(f'isotropic_hardening : "Voce" {{{fall}}}')
     for C, gamma in content.backstresses:
         rules.append(
             f'kinematic_hardening : "Armstrong-Frederick" {{C : {C!r}, D : {gamma!r}}}'
@@ -60,6 +63,12 @@ FORMAT = CardFormat(
     comment="//",
     laws={
         "chaboche-voce": CardLaw(
+            "StandardElastoViscoPlasticity",
+            "TFEL/MFront, Description of the StandardElastoViscoPlasticity brick: "
+            "Linear, Voce, Prager, Armstrong-Frederick",
+            _write,
+        ),
+        "updated-voce-chaboche": CardLaw(
             "StandardElastoViscoPlasticity",
             "TFEL/MFront, Description of the StandardElastoViscoPlasticity brick: "
             "Linear, Voce, Prager, Armstrong-Frederick",
