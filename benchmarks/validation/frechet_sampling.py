@@ -2,7 +2,7 @@
 
 The tests of `searches.py` have some 300 rows, every so many-th of the file: along steep branches a
 step is longer than the distances that a search ends at, and then which points fall together decides
-(`curvewise.calibration.methods.endings`). The same files are resampled evenly along their arc
+(`curvewise.calibration.problem.endings`). The same files are resampled evenly along their arc
 length; bounds, limit and method are the same. Each model that is found is compared with all rows of
 the file by the continuous Fréchet distance, which does not go by points.
 

@@ -19,13 +19,13 @@ from .identify import identify
 from .identify_each import identify_each
 from .line_plot import LinePlot, line_plot
 from .methods import *  # noqa: F403  # the classes that methods/__init__ lists
-from .methods.ask_tell import Answer, OpenSearch
 from .models.command import CommandModel, SolverError
 from .objective.cases import Case
 from .objective.criterion import MEASURES, Criterion
 from .objective.first_run import FirstRunWarning
 from .objective.noisy_tests import NoisyTestWarning
 from .objective.objective import Objective, Score
+from .problem.ask_tell import Answer, OpenSearch
 from .problem.evaluations import Progress
 from .problem.problem import Problem
 from .problem.space import WideBoundsWarning

@@ -135,8 +135,8 @@ def test_a_population_finds_the_bottom_of_a_narrow_valley(k):
     found = evolved(
         function,
         np.full(k, 0.5),
-        0.1,
         np.random.default_rng(0),
+        width=0.1,
         members=16,
         generations=200,
         settled=1e-4,
@@ -155,8 +155,8 @@ def test_it_never_returns_more_than_the_lowest_of_what_it_has_seen():
     found = evolved(
         stepped,
         np.full(3, 0.9),
-        0.05,
         np.random.default_rng(0),
+        width=0.05,
         members=6,
         generations=20,
         settled=1e-4,

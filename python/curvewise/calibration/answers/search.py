@@ -9,9 +9,9 @@ from typing import Any
 
 from ..._extras import required
 from ...curves.several_curves import points_of
-from ..methods.endings import judged_end
 from ..methods.method import Method
 from ..problem.details import details_of
+from ..problem.endings import judged_end
 from ..problem.evaluations import Evaluations, Progress
 from ..problem.execution import Execution
 from ..problem.ledger import Finish, SearchEndedError

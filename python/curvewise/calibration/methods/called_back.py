@@ -1,7 +1,6 @@
 """Turns a function with a callback, such as a scipy optimiser, into a course.
 
-The function runs in its own thread, and one of the two threads always waits for the other. Cost:
-two thread switches per batch, about 50 microseconds.
+The function runs in its own thread, and one of the two threads always waits for the other.
 """
 
 from __future__ import annotations

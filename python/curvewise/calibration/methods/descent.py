@@ -3,12 +3,10 @@
 Each iteration minimises the surrogate within a trust region around the best run and runs the model
 at the minimiser. The radius follows the ratio of actual to predicted reduction. If the predicted
 reduction is negligible, geometry-improving steps run the model in directions with poor sampling. If
-there are none, the global stage proposes other minima. If its predicted reduction is negligible
-too, the start has ended. A start is abandoned if it is far above the best run and predicts only a
-small part of the difference.
-
-If repeated steps do not achieve their predicted reduction, the surrogate of the curves is
-misleading. The start then continues with a surrogate of the value (`lowest_value`).
+there are none, the global stage proposes other minima. If it proposes none, the start has ended. A
+start is abandoned if it is far above the best run and predicts only a small part of the difference.
+If repeated steps do not achieve their predicted reduction, the start continues with a surrogate of
+the value (`lowest_value`).
 
 Cost: k + 1 runs for the initial design of k parameters, one run for every step and restart, and up
 to k runs to sample all directions at the end.
@@ -28,9 +26,10 @@ from ...curves.inputs import Array
 from ..problem.ledger import Finish
 from ..records.evaluation import Evaluation
 from ..surfaces.kriged_surface import lowest_value
+from ..surfaces.steps import GOOD, POOR
 from .global_stage import GlobalStage
 from .runs import Noise, Runs
-from .starts import NOISIEST, End, nothing_beside
+from .starts import NOISIEST, WITHIN, End, nothing_beside
 
 __all__ = ["Descent", "Part", "Rules", "simplex_around"]
 
@@ -39,30 +38,19 @@ Part: TypeAlias = Generator[Array, list[Evaluation], R]
 """A part of a course, which returns something of its own."""
 
 _FAR = 5.0  # how far the runs may be from which a surrogate is made, in regions of trust
-# Ratios of actual to predicted reduction: a step below _POOR has failed; the region grows from
-# _GOOD on.
-_POOR, _FAIR, _GOOD = 0.1, 0.3, 0.7
-_AFTER_FAILURE, _AFTER_POOR = 0.5, 0.7  # the region, of the length of a step
-_SHORTER = 0.05  # sides of the region after a run that failed, of some of its axes
-_AFTER_LOOK = 5.0  # factor of the radius after geometry-improving steps
-_OF_NOISE = 5.0  # factor of diff_step for a model with noise
-_AFTER_HOP = 0.15  # factor of the diff_step radius after a restart next to another minimum
+_FAIR, _AFTER_FAIR = 0.3, 0.7  # a ratio of reductions, and the region below it, in step lengths
+_AFTER_HOP = 0.15  # the region after a restart next to another minimum
 _FEW = 2  # up to this number of parameters, each independent start runs its own initial design
-# Excess of failed over good steps that marks the surrogate of the curves as misleading.
-_MISLED = 5
-# Restart distances from the best run, restarts per place, and the least predicted reduction as a
-# fraction of the value.
-_REACHES, _TRIES, _OF_VALUE = (0.4, 0.1, 0.025), 2, 2e-3
-_CLOSE = 0.1  # a start whose value is above the best by a larger part is far above it
-# a start is abandoned if it predicts less than this fraction of its excess over the best
-_LEFT_BEHIND = 0.2
-# Planes of exact derivatives lead straight into the corners of the bounds. A search that reaches a
-# corner too early cannot leave it if the model changes abruptly there. As in interior-point
-# methods, no step covers more than this fraction of the distance to a bound. Three such steps
-# practically reach the bound.
+_SHORTER = 0.05  # sides of the region after a run that failed, of some of its axes
+_MISLED = 5  # excess of failed over good steps that marks a surrogate of curves as misleading
+_REACHES = (0.4, 0.1, 0.025)  # restart distances from the best run
+_OF_VALUE = 2e-3  # the least predicted reduction of a restart, as a fraction of the value
+# A start whose value is above the best by a larger part is far above it, and abandoned if it
+# predicts less than that part of the difference.
+_CLOSE, _LEFT_BEHIND = 0.1, 0.2
+# Planes of exact derivatives lead straight into the corners of the bounds, where a model may change
+# abruptly. As in interior-point methods, no step covers more of the distance to a bound than this.
 _OF_WAY = 0.9
-# an end after failed steps does not count if the predicted reduction exceeds this fraction
-_PROMISING = 0.01
 
 
 @dataclass(frozen=True)
@@ -126,9 +114,8 @@ class Descent:
         radius = self._rules.first_radius
         simplex = simplex_around(start, radius / 2.0, self._random)
         is_known = not self._runs.least_known(start, radius / 2.0)
-        if self._runs.has_slopes or (
-            is_known and not (self._is_independent and start.size <= _FEW)
-        ):
+        is_own = self._is_independent and start.size <= _FEW
+        if self._runs.has_slopes or (is_known and not is_own):
             yield from self._run(start[np.newaxis])
         if self._best is None:
             yield from self._run(np.vstack((start, simplex)))
@@ -151,7 +138,7 @@ class Descent:
                 return Finish(False, "another start is far ahead")
             if promised <= least or radius < rules.tol:
                 if (yield from self._looks_around()):
-                    radius = max(radius, _AFTER_LOOK * self._reach)
+                    radius = max(radius, _FAR * self._reach)  # as far as the new runs support
                 elif (yield from self._hops(least)):
                     radius = max(radius, _AFTER_HOP)
                 else:
@@ -170,26 +157,24 @@ class Descent:
         self._sides = self._drawn_sides()
         if was_whole and not np.isfinite(self._last):
             return radius
-        ratio = (before - self._last) / promised
-        if ratio < _POOR and np.isfinite(self._last):
+        gain = before - self._last
+        has_failed = gain < POOR * promised
+        if has_failed and np.isfinite(self._last):
             noise = self._runs.noise(self._best, self._reach).of_value
             self._failed += promised > 2.0 * noise
-        elif ratio >= _GOOD:
+        elif gain >= GOOD * promised:
             self._failed = max(0, self._failed - 1)
         if self._failed == _MISLED and not self._by_value and not self._runs.has_slopes:
             self._by_value = self._runs.is_misled = True
             return self._rules.first_radius / 2.0
-        if ratio >= _GOOD:
-            return min(1.0, max(radius, 2.0 * length))
-        if ratio < _POOR:
-            return _AFTER_FAILURE * length
-        return _AFTER_POOR * length if ratio < _FAIR else radius
+        if has_failed:
+            return length / 2.0
+        if gain < _FAIR * promised:
+            return _AFTER_FAIR * length
+        return min(1.0, max(radius, 2.0 * length)) if gain >= GOOD * promised else radius
 
     def _drawn_sides(self) -> Array:
-        """Return the side lengths of the next region; a failed run shortens some.
-
-        A step that moves less along some axes follows the border of the region of failed runs.
-        """
+        """Return the sides of the next region: a failed run shortens some, to follow its border."""
         k = self._sides.size
         if np.isfinite(self._last):
             return np.ones(k)
@@ -239,18 +224,14 @@ class Descent:
         """Run what the surrogate would learn most from; return whether there was any such point."""
         assert self._best is not None
         if self._runs.noise(self._best, self._reach).of_curves > 0.0:
-            self._reach = _OF_NOISE * self._rules.diff_step
+            self._reach = _FAR * self._rules.diff_step
         unknown = [] if self._runs.has_slopes else list(self._unknown())
         if unknown:
             yield from self._run(np.array(unknown))
         return bool(unknown)
 
     def _unknown(self) -> Iterator[Array]:
-        """Yield a point for each direction with poor sampling around the best run.
-
-        That in which they are spread least first. Where runs have failed there, on the other side
-        or nearer.
-        """
+        """Yield a point for each direction with poor sampling, nearer if runs have failed there."""
         centre, reach = self.centre, self._reach
         for direction in self._runs.least_known(centre, reach):
             axis = int(np.argmax(np.abs(direction)))
@@ -265,18 +246,15 @@ class Descent:
                     break
 
     def _hops(self, least: float) -> Part[bool]:
-        """Run the proposals of the global stage; return whether one is better.
-
-        No run is made for a smooth measure if the model has a Jacobian: another start costs less.
-        """
+        """Run the proposals of the global stage; return whether one is better."""
         if self._runs.has_slopes and self._runs.inner.is_smooth:
-            return False
+            return False  # another start costs less
         assert self._best is not None
         before, centre = self.value, self.centre
         if self._runs.is_exhausted(centre):
             return False
         for reach in _REACHES:
-            for _ in range(_TRIES):
+            for _ in range(2):
                 if self.value > (1.0 + _CLOSE) * min(self._runs.values):
                     return False
                 found = self._stage.lowest(self._best, reach * self._sides)
@@ -301,6 +279,6 @@ class Descent:
             return Finish(True, f"{message}{own}")
         region = f"the region is below {self._rules.tol:g} of the bounds' range"
         noise = min(2.0 * self._noise.of_value, NOISIEST * self.value)
-        if promised <= max(_PROMISING * self.value, noise):
+        if promised <= max(WITHIN * self.value, noise):
             return Finish(True, f"{region}{own}")
         return Finish(False, f"{region}, and steps improve less than the surrogate predicts{own}")

@@ -1,17 +1,8 @@
-"""Global search by scipy's differential evolution, a generation at a time.
-
-The result is not polished: scipy's polish needs gradients, but the objective has kinks and jumps.
-The smallest value of a perfect model is 0. Therefore `atol`, a limit on the spread of the
-population, ends the search when it would only keep halving a negligible value. The search also ends
-if the spread is 0, as on one level of a piecewise constant objective.
-
-R. Storn, K. Price, "Differential evolution - a simple and efficient heuristic for global
-optimization over continuous spaces", J. Global Optimization 11 (1997) 341-359.
-"""
+"""Global search by scipy's differential evolution, a generation at a time."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -62,7 +53,12 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
 
     Notes
     -----
-    R. Storn, K. Price, J. Global Optimization 11 (1997) 341-359.
+    The result is not polished, because scipy's polish needs gradients, but objectives have kinks
+    and jumps. The smallest value of a perfect model is 0. Therefore `atol` is the negligible
+    difference of the objective. The search also ends if all values of the population are equal.
+
+    R. Storn, K. Price, "Differential evolution - a simple and efficient heuristic for global
+    optimization over continuous spaces", J. Global Optimization 11 (1997) 341-359.
 
     Examples
     --------
@@ -119,7 +115,12 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
         self, ledger: Ledger, start: Array | None, seed: int, evaluate: Evaluate
     ) -> Finish:
         function = required("scipy.optimize").differential_evolution
-        stalled = None if self.stall is None else _Stall(ledger, *self.stall)
+        best: list[float] = []  # of each generation
+
+        def callback(xk: Array, convergence: float) -> bool:
+            best.append(ledger.best.value)
+            return self._has_stalled(best)
+
         # scipy 1.15 renamed `seed`; a Generator means the same under both names.
         seed_name = "rng" if "rng" in taken_by(function) else "seed"
         settings = {
@@ -130,7 +131,7 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
             "atol": ledger.negligible,
             "updating": "deferred",
             "polish": False,
-            "callback": stalled,
+            "callback": None if self.stall is None else callback,
             **self.options,
             "vectorized": True,
             seed_name: np.random.default_rng(seed),
@@ -140,28 +141,15 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
             return np.array([run.value for run in evaluate(np.atleast_2d(units.T))])
 
         result = function(values, [(0.0, 1.0)] * ledger.dimensions, **settings)
-        if stalled is not None and stalled.message:
-            return Finish(True, stalled.message)
+        if self.stall is not None and self._has_stalled(best):
+            gain, generations = float(self.stall[0]), int(self.stall[1])
+            message = f"improved by less than {gain:.3g} over {generations} generations"
+            return Finish(True, message)
         return Finish(bool(result.success), str(result.message))
 
-
-class _Stall:
-    """Ends differential evolution if the best value has stopped improving."""
-
-    def __init__(self, ledger: Ledger, improvement: float, generations: int) -> None:
-        self._ledger = ledger
-        self._improvement, self._generations = float(improvement), int(generations)
-        self._best: list[float] = []
-        self.message = ""  # once it has
-
-    def __call__(self, xk: Array, convergence: float) -> bool:
-        """Return whether the search ends after this generation."""
-        self._best.append(self._ledger.best.value)
-        if len(self._best) > self._generations:
-            before = self._best[-1 - self._generations]
-            if before - self._best[-1] <= self._improvement * abs(before):
-                self.message = (
-                    f"improved by less than {self._improvement:.3g} over {self._generations} "
-                    "generations"
-                )
-        return bool(self.message)
+    def _has_stalled(self, best: Sequence[float]) -> bool:
+        """Return whether the best values of the generations have stopped improving."""
+        if self.stall is None or len(best) <= self.stall[1]:
+            return False
+        before = best[-1 - int(self.stall[1])]
+        return before - best[-1] <= self.stall[0] * abs(before)

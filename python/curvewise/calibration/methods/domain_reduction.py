@@ -1,20 +1,4 @@
-"""Successive response surfaces with domain reduction (SDRM).
-
-Every iteration runs the model at the centre of a region of interest and at corners of it that an
-orthogonal two-level design selects (D-optimal for a linear surface). Planes are fitted by least
-squares to every coordinate of every point of the simulated curves. The minimiser of the objective
-on the curves that these planes predict, within the region, becomes the next centre. A parameter
-that keeps moving in one direction keeps its range (panning). If it reverses, or stays in the
-middle, its range shrinks (zooming). Simulations that differ in their number of points (a solver
-with adaptive steps) are resampled by arc length for the planes.
-
-Linear surfaces average over noise and jumps that mislead gradients. With the default options there
-are at least 14 iterations (0.6^14 < 1e-3), more where parameters pan. Each also minimises the
-objective on predicted curves (`surfaces.inner_search`).
-
-N. Stander, K. J. Craig, "On the robustness of a simple domain reduction scheme for
-simulation-based optimization", Engineering Computations 19 (2002) 431-450.
-"""
+"""Successive response surfaces with domain reduction (SDRM)."""
 
 from __future__ import annotations
 
@@ -28,12 +12,10 @@ from ..problem.ledger import Course, Finish, Ledger
 from ..records.evaluation import Evaluation
 from ..surfaces.inner_search import CurveSearch
 from ..surfaces.surfaces import regression
-from .method import Method, with_other_defaults
+from .method import NEAR, Method, with_other_defaults
 from .starts import WITHIN, nothing_beside
 
 __all__ = ["SDRM"]
-
-_GAIN = 1e-3  # the smallest that counts, as a fraction of the value
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -59,6 +41,13 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
 
     Notes
     -----
+    Every iteration runs the model at the centre of a region and at corners of it that an orthogonal
+    two-level design selects. Planes are fitted by least squares to every coordinate of every point
+    of the curves. The minimiser of the measure of the curves that they predict is the next centre.
+    A parameter that keeps moving in one direction keeps its range (panning). If it reverses, or
+    stays in the middle, its range shrinks (zooming). Planes average over noise and jumps that
+    mislead gradients.
+
     N. Stander, K. J. Craig, "On the robustness of a simple domain reduction scheme for
     simulation-based optimization", Engineering Computations 19 (2002) 431-450.
 
@@ -82,7 +71,7 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
 
     def near_optimum(self) -> SDRM:
         """Return the same with a small first region."""
-        return with_other_defaults(self, initial_range=0.1)
+        return with_other_defaults(self, initial_range=NEAR)
 
     def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
         """Minimise by successive linear response surfaces."""
@@ -91,7 +80,7 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
         centre = np.full(k, 0.5) if start is None else start
         size = np.full(k, 1.0 if self.initial_range is None else self.initial_range)
         move = np.zeros(k)
-        inner = CurveSearch(ledger.objective, _GAIN, ledger.show_activity)
+        inner = CurveSearch(ledger.objective, self.tol, ledger.show_activity)
         for _ in range(self.maxiter):
             low, high = np.clip((centre - size / 2, centre + size / 2), 0.0, 1.0)
             points = np.vstack((centre, np.where(_design(k, random) > 0, high, low)))
@@ -142,8 +131,7 @@ def _design_rows(k: int) -> int:
 def _design(k: int, random: np.random.Generator) -> Array:
     """Return an orthogonal design of k columns of -1 and 1, of a Hadamard matrix.
 
-    Every iteration draws again which column serves which parameter, and its sign. Interactions
-    between parameters therefore do not bias all planes in the same direction.
+    The columns are drawn again each time, so that interactions do not always bias the same way.
     """
     rows = _design_rows(k)
     columns = required("scipy.linalg").hadamard(rows)[:, 1 + random.permutation(rows - 1)[:k]]

@@ -1,16 +1,4 @@
-"""Global search by CMA-ES, for models of milliseconds; without it by differential evolution.
-
-The covariance matrix adaptation evolution strategy learns the shape of the distribution from which
-it draws generations of points, so narrow minima that are not aligned with the axes cost it little.
-A round ends when the best values of its generations no longer change. Each further round doubles
-the population, because larger populations follow the overall shape rather than shallow local minima
-(IPOP). The search has converged when two rounds end at the same value. Cost: an overhead of about
-30 microseconds per run.
-
-N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772; A. Auger, N. Hansen, "A
-restart CMA evolution strategy with increasing population size", Proc. IEEE CEC (2005) 1769-1776.
-The package cma (BSD licence) is by N. Hansen.
-"""
+"""Global search by CMA-ES, for models of milliseconds; without it by differential evolution."""
 
 from __future__ import annotations
 
@@ -24,6 +12,7 @@ import numpy as np
 
 from ...curves.inputs import Array
 from ..problem.ledger import Course, Finish, Ledger
+from ..surfaces.steps import SMALL
 from .differential_evolution import DifferentialEvolution
 from .method import Method
 
@@ -38,12 +27,10 @@ _WITHOUT = 'by differential evolution, since cma is missing (pip install "curvew
 class Global(Method, name="global", keeps_curves=False, needs_squares=False):
     """Global search by CMA-ES with growing populations.
 
-    It suits models that take milliseconds.
-
-    The package ``cma`` is used if it is installed (``pip install "curvewise[global]"``). Otherwise
-    scipy's differential evolution is used, which needs more runs and succeeds less often; the
-    message of the result reports it. For any measure. The points of a generation may run in
-    parallel.
+    It suits models that take milliseconds. The package ``cma`` is used if it is installed (``pip
+    install "curvewise[global]"``). Otherwise scipy's differential evolution is used, which needs
+    more runs and succeeds less often; the message of the result reports it. For any measure. The
+    points of a generation may run in parallel.
 
     Parameters
     ----------
@@ -62,8 +49,14 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
 
     Notes
     -----
-    N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772; A. Auger, N. Hansen,
-    Proc. IEEE CEC (2005) 1769-1776, for the rounds. Some 5,000 to 20,000 runs for 8 parameters.
+    A round ends when the best values of its generations no longer change. Each further round
+    doubles the population, because larger populations follow the overall shape rather than shallow
+    local minima. The search has converged when two rounds end at the same value. Cost: about 5,000
+    to 20,000 runs for 8 parameters; an overhead of about 30 microseconds per run.
+
+    N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772; A. Auger, N. Hansen, "A
+    restart CMA evolution strategy with increasing population size", Proc. IEEE CEC (2005)
+    1769-1776.
 
     Examples
     --------
@@ -100,7 +93,7 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
         """Minimise by rounds of CMA-ES."""
         cma = _cma()
         if cma is None:
-            evolution = DifferentialEvolution(tol=1e-4)
+            evolution = DifferentialEvolution(tol=SMALL)
             finish = yield from evolution.course(ledger, start, seed)
             return finish._replace(message=f"{_WITHOUT}{finish.message}")
         random = np.random.default_rng(seed)

@@ -1,8 +1,7 @@
 """The global stage of a search: minima of a surrogate beyond the trust region.
 
-A local search ends in the nearest local minimum, and measures of curves have many close together.
-Sums of distances have them where noisy curves cross elsewhere, largest distances where other points
-decide. A surrogate predicts them before the model is run. CMA-ES (`surfaces.evolution`) searches
+A local search ends in the nearest local minimum, and measures of curves have many close together. A
+surrogate predicts them before the model is run. CMA-ES (`surfaces.evolution`) searches
 two surrogates for the lowest place: the surface through the runs around the best one, and the
 surface through the best hundred runs within all the bounds. The inner search of the measure
 polishes the result.
@@ -19,25 +18,19 @@ N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772; D. J. Wal
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from ...curves.inputs import Array
 from ..surfaces.evolution import evolved
+from ..surfaces.steps import FEW, SMALL
 from ..surfaces.surfaces import Surface
 from .runs import Runs
 
 __all__ = ["GlobalStage"]
 
-_MEMBERS, _GENERATIONS = 12, 30
-_SETTLED = 5e-3  # what follows is polished by the inner search
-_WIDTH = 0.3  # the first standard deviation, in reaches
 _LEAST = 0.03  # of the reach: the shortest principal axis
-# runs in the wide surface; CMA-ES begins at one of the best _GOOD
-_BEST, _GOOD = 100, 10
-_SAME = 1e-4  # places that are nearer to each other, along each axis, are the same
 _POLISHED = 0.05  # how far the inner search may move what CMA-ES finds
+_BEST = 100  # runs in the wide surface; CMA-ES begins at one of the best FEW
 
 
 class GlobalStage:
@@ -59,9 +52,9 @@ class GlobalStage:
 
         def function(moves: Array) -> Array:
             points = np.clip(centre + (moves - 0.5) @ axes.T, low, high)
-            return self._runs.inner.estimates(surface, points)
+            return self._runs.inner.values(surface, points, roughly=True)
 
-        moves = self._evolved(function, np.full(centre.size, 0.5))
+        moves = evolved(function, np.full(centre.size, 0.5), self._random)
         found = np.clip(centre + axes @ (moves - 0.5), low, high)
         return self._promised(surface, number, found)
 
@@ -71,27 +64,19 @@ class GlobalStage:
         Return None if a run exists at that place.
         """
         surface = self._runs.surface_through_best(_BEST)
-        good = np.argsort(self._runs.values, kind="stable")[:_GOOD]
-        start = self._runs.points[int(self._random.choice(good))]
-        found = self._evolved(lambda points: self._runs.inner.estimates(surface, points), start)
-        return self._promised(surface, self._runs.best, found)
-
-    def _evolved(self, function: Callable[[Array], Array], start: Array) -> Array:
-        return evolved(
-            function,
-            start,
-            _WIDTH,
-            self._random,
-            members=_MEMBERS,
-            generations=_GENERATIONS,
-            settled=_SETTLED,
+        best = np.argsort(self._runs.values, kind="stable")[:FEW]
+        start = self._runs.points[int(self._random.choice(best))]
+        inner = self._runs.inner
+        found = evolved(
+            lambda points: inner.values(surface, points, roughly=True), start, self._random
         )
+        return self._promised(surface, self._runs.best, found)
 
     def _promised(self, surface: Surface, number: int, found: Array) -> tuple[Array, float] | None:
         inner = self._runs.inner
         low, high = np.clip(found - _POLISHED, 0.0, 1.0), np.clip(found + _POLISHED, 0.0, 1.0)
         place = inner.lowest(surface, found, low, high)
-        if np.abs(self._runs.points - place).max(axis=1).min() <= _SAME:
+        if np.abs(self._runs.points - place).max(axis=1).min() <= SMALL:
             return None
         before, after = inner.values(surface, np.array((self._runs.points[number], place)))
         return place, float(before - after)

@@ -1,15 +1,4 @@
-"""The trust-region search for sums of squares, and the choice between the two.
-
-The Gauss-Newton method needs the residuals as a function of the parameters. A kriging surrogate
-through the runs near the best one replaces that function. `trust_region` lists the parts of the
-search; `surfaces.sums_of_squares` is the inner search. Cost: k + 1 runs for the initial design and
-one for every step: 10 to 20 runs per start for 3 parameters, 30 to 60 for 8.
-
-C. Cartis, J. Fiala, B. Marteau, L. Roberts, "Improving the flexibility and robustness of
-model-based derivative-free optimization solvers", ACM Trans. Math. Softw. 45 (2019) 32; S. M. Wild,
-"POUNDERS in TAO: solving derivative-free nonlinear least-squares problems", in "Advances and trends
-in optimization with engineering applications", SIAM (2017) 529-540.
-"""
+"""The trust-region search for sums of squares, and the choice between the two."""
 
 from __future__ import annotations
 
@@ -59,7 +48,13 @@ class LeastSquares(SurrogateSearch, name="least-squares", keeps_curves=True, nee
 
     Notes
     -----
-    C. Cartis, J. Fiala, B. Marteau, L. Roberts, ACM Trans. Math. Softw. 45 (2019) 32.
+    The Gauss-Newton method needs the residuals as a function of the parameters. A kriging surrogate
+    through the runs near the best one replaces that function.
+
+    C. Cartis, J. Fiala, B. Marteau, L. Roberts, "Improving the flexibility and robustness of
+    model-based derivative-free optimization solvers", ACM Trans. Math. Softw. 45 (2019) 32. S. M.
+    Wild, "POUNDERS in TAO: solving derivative-free nonlinear least-squares problems", SIAM (2017)
+    529-540.
 
     Examples
     --------

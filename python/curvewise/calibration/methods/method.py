@@ -1,8 +1,7 @@
 """The base record of all search methods.
 
-A method is a frozen dataclass of its options, checked when it is made. `identify`, `identify_each`
-and the check of a study use only this record. Python refuses a class without one of the record's
-keywords, and an object of a class without one of its functions.
+A method is a frozen dataclass of its options, checked when it is made. Python refuses a class
+without one of the record's keywords, and an object of a class without one of its functions.
 """
 
 from __future__ import annotations
@@ -19,11 +18,12 @@ from ..._names import did_you_mean
 from ...curves.inputs import Array
 from ..objective.criterion import LEAST_SQUARES, Measure
 from ..objective.objective import Objective
+from ..problem.ask_tell import OpenSearch
 from ..problem.ledger import Course, Ledger
 from ..problem.problem import Problem
-from .ask_tell import OpenSearch
 
 __all__ = [
+    "NEAR",
     "Method",
     "check_passed_on",
     "options_of",
@@ -31,6 +31,8 @@ __all__ = [
     "taken_by",
     "with_other_defaults",
 ]
+
+NEAR = 0.1  # size of the first region for a start near the optimum, of the bounds' range
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

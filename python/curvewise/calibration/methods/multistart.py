@@ -2,11 +2,9 @@
 
 Starts run one after the other with one worker, and three in parallel with several. The first start
 is the middle of the bounds. The others are Latin hypercube samples of four points: each of four
-consecutive starts lies in a different quarter of every axis. (A low-discrepancy sequence is not
-better for a few points in many dimensions, and scipy's takes half a second to import.) After the
-first starts, every second one begins where the surrogate through the best runs is lowest
-(`global_stage`). Such a start takes few runs, but it depends on the other starts, so it does not
-count as agreeing with them.
+consecutive starts lies in a different quarter of every axis. After the first starts, every second
+one begins where the surrogate through the best runs is lowest (`global_stage`). Such a start takes
+few runs, but it depends on the other starts, so it does not count as agreeing with them.
 
 M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
 input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245.
@@ -33,7 +31,6 @@ __all__ = ["Multistart", "places", "side_by_side"]
 R = TypeVar("R")
 
 _QUARTERS, _MARGIN = 4, 0.1  # of the bounds' range, in which no start is drawn
-_SMALLER = 0.25  # largest first radius of a start after the first
 
 
 def places(k: int, random: np.random.Generator) -> Iterator[Array]:
@@ -47,11 +44,7 @@ def places(k: int, random: np.random.Generator) -> Iterator[Array]:
 
 
 class Multistart:
-    """Begins starts, and more of them where too few agree.
-
-    `starts` is the number of starts that must agree, `most` the maximum number, and `at_once` the
-    number of those that run in parallel.
-    """
+    """Begins starts, until `starts` agree or there are `most`; `at_once` run in parallel."""
 
     def __init__(
         self,
@@ -107,7 +100,7 @@ class Multistart:
         """Begin the next start: every second of the later ones where the surrogate promises."""
         rules = self._rules
         if self._begun:
-            rules = replace(rules, first_radius=min(_SMALLER, rules.first_radius))
+            rules = replace(rules, first_radius=min(1.0 / _QUARTERS, rules.first_radius))
         if self._begun >= self._starts and (self._begun - self._starts) % 2 and self._runs.values:
             found = self._stage.wide()
             if found is not None:

@@ -1,8 +1,4 @@
-"""The runs of a search as vectors: the data that its surrogates interpolate.
-
-All starts share them, so a start that reaches the region of another start needs few runs. Cost: O(n
-k) for the nearest of n runs in k parameters.
-"""
+"""The runs of a search as vectors: the data that its surrogates interpolate, for all starts."""
 
 from __future__ import annotations
 
@@ -17,6 +13,7 @@ from ..records.evaluation import Evaluation
 from ..surfaces.inner_search import InnerSearch
 from ..surfaces.kriged_surface import KrigedSurface
 from ..surfaces.surfaces import Surface, Surfaces
+from .starts import WITHIN
 
 __all__ = ["Noise", "Runs"]
 
@@ -24,7 +21,6 @@ _NEAREST = 30  # runs that make a surrogate, at most; 3 k + 3 where that is more
 # Directions around a point are known if in each of them the runs within _AROUND times a reach are
 # spread by this much, in squares of the reach.
 _AROUND, _SPREAD = 3.0, 0.3
-_BESIDE = 0.01  # places closer than this along each axis share their restarts
 _NOISY = 1e-3  # of the bounding box: smaller noise counts as 0
 
 
@@ -91,13 +87,10 @@ class Runs:
 
     def is_exhausted(self, point: Array) -> bool:
         """Return whether restarts from next to a point have found nothing before."""
-        return any(np.abs(point - place).max() <= _BESIDE for place in self.exhausted)
+        return any(np.abs(point - place).max() <= WITHIN for place in self.exhausted)
 
     def least_known(self, centre: Array, reach: float) -> list[Array]:
-        """Return the directions, if any, in which the runs around a point are spread too little.
-
-        They are unit vectors; the runs are spread least in the first.
-        """
+        """Return the directions in which the runs around a point are spread too little, if any."""
         offsets = (self.points - centre) / reach
         offsets = offsets[np.abs(offsets).max(axis=1) <= _AROUND]
         spread, directions = np.linalg.eigh(offsets.T @ offsets)

@@ -1,14 +1,4 @@
-"""Local search by Nelder and Mead's simplex, restarted until it gains nothing.
-
-A simplex may collapse at a point that is not a minimum, most often at the kinks of an objective
-that sums absolute values or takes a maximum. A new simplex in other directions lets the search
-continue. The tolerance on the value is the negligible difference of the objective. A relative
-tolerance would never be met, because the smallest value of a perfect model is 0. Cost: 250 to 500
-runs for 3 parameters; it suits up to 10 parameters, better 5.
-
-J. A. Nelder, R. Mead, "A simplex method for function minimization", The Computer Journal 7 (1965)
-308-313.
-"""
+"""Local search by Nelder and Mead's simplex, restarted until it gains nothing."""
 
 from __future__ import annotations
 
@@ -35,9 +25,7 @@ _GAIN = 1e-3  # restarts that gain a smaller fraction of the value gain nothing
 class NelderMead(Method, name="nelder-mead", keeps_curves=False, needs_squares=False):
     """Restarted Nelder-Mead simplex: a local search for few parameters.
 
-    It begins at `start`.
-
-    It requests one run at a time, whatever `workers` is.
+    It begins at `start`, and requests one run at a time, whatever `workers` is.
 
     Parameters
     ----------
@@ -55,7 +43,13 @@ class NelderMead(Method, name="nelder-mead", keeps_curves=False, needs_squares=F
 
     Notes
     -----
-    J. A. Nelder, R. Mead, The Computer Journal 7 (1965) 308-313.
+    A simplex may collapse at a point that is not a minimum, most often at the kinks of an
+    objective. A new simplex in other directions lets the search continue. The tolerance on the
+    value is the negligible difference of the objective, because the smallest value of a perfect
+    model is 0. Cost: 250 to 500 runs for 3 parameters; it suits up to 10 parameters, better 5.
+
+    J. A. Nelder, R. Mead, "A simplex method for function minimization", The Computer Journal 7
+    (1965) 308-313.
 
     Examples
     --------
@@ -92,6 +86,7 @@ class NelderMead(Method, name="nelder-mead", keeps_curves=False, needs_squares=F
             return evaluate(unit[np.newaxis])[0].value
 
         k, negligible = best.size, ledger.negligible
+        nothing = 10.0 * negligible
         value, idle = function(best), 0
         for restart in range(1 + self.restarts):
             directions = np.eye(k) if restart == 0 else np.linalg.qr(random.normal(size=(k, k)))[0]
@@ -111,7 +106,7 @@ class NelderMead(Method, name="nelder-mead", keeps_curves=False, needs_squares=F
             gained = value - result.fun
             if gained > 0:
                 best, value = result.x, float(result.fun)
-            idle = 0 if gained > max(10.0 * negligible, _GAIN * value) else idle + 1
-            if value <= 10.0 * negligible or idle == 2:
+            idle = 0 if gained > max(nothing, _GAIN * value) else idle + 1
+            if value <= nothing or idle == 2:
                 break
         return Finish(bool(result.success), str(result.message))

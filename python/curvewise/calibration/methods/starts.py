@@ -25,30 +25,29 @@ __all__ = [
 ]
 
 _FEWEST = 3  # starts that have to agree
-WITHIN = 0.01  # ends within this fraction above the best value agree
+# Ends within this fraction above the best value agree, and places this near along each axis, as a
+# fraction of the bounds' range, are the same.
+WITHIN = 0.01
 NOISIEST = 0.05  # and by this one where the model's own noise moves values so far
 # Ends also agree if their difference is negligible, or at most the square of that fraction of the
 # total reduction. Fits to curves of the model itself need this.
 _PERFECT = 1e3
-_SAME_PLACE = 0.01  # of the bounds' range
 _TRY = 'is flat or stepped here; try another method ("global"), measure or start '
 
 
 class End(NamedTuple):
     """The end of one start: its first and last value, and the point of the last.
 
-    `is_independent` tells whether its starting point does not depend on other starts, `noise` the
-    effect of the model's own noise on the value (one standard deviation), and `is_misled` whether
-    it continued with the surrogate of the value, because the surrogate of the curves misled it.
+    `noise` is the effect of the model's own noise on the value, one standard deviation.
     """
 
     first: float
     value: float
     place: Array
     finish: Finish
-    is_independent: bool = True
+    is_independent: bool = True  # whether its starting point does not depend on other starts
     noise: float = 0.0
-    is_misled: bool = False
+    is_misled: bool = False  # whether it continued with the surrogate of the value
 
     @property
     def tells(self) -> bool:
@@ -101,17 +100,16 @@ def is_flat(ends: Sequence[End], negligible: float) -> bool:
     if best.value <= _nothing(ends, negligible):
         return False
     same = [end.place for end in ends if end.value == best.value]
-    return bool(max(np.abs(place - best.place).max() for place in same) > _SAME_PLACE)
+    return bool(max(np.abs(place - best.place).max() for place in same) > WITHIN)
 
 
 def finish_of(ends: Sequence[End], negligible: float, starts: int) -> Finish:
     """Return the ending of a search whose starts have ended.
 
-    Differences of the value below `negligible` do not count. The search has converged if as many
-    starts agree for the best of all as have to agree by default, or `starts` if that is less; one
-    more where some have ended higher. A lower minimum that attracts as many of n starts as the k
-    that agree would have been missed by all of them with a probability of (1 - k / n)^n < exp(-k):
-    2 % for k = 4, whatever n is.
+    The search has converged if as many starts agree as have to by default, or `starts` if that is
+    less; one more where some have ended higher. A lower minimum that attracts as many of n starts
+    as the k that agree would have been missed by all of them with a probability of
+    (1 - k / n)^n < exp(-k): 2 % for k = 4, whatever n is.
     """
     best = _best(ends)
     converged, message = best.finish.converged, best.finish.message
@@ -123,18 +121,15 @@ def finish_of(ends: Sequence[End], negligible: float, starts: int) -> Finish:
     if obstacle := _obstacle(ends, best, negligible):
         before, reason = obstacle
         return Finish(False, f"{before}({message})", agreement, reason)
-    if not converged:
-        reason = (
-            "the best start ended before its steps had become small; "
-            "give closer bounds, or another seed"
-        )
-        return Finish(False, message, agreement, reason)
-    if _agree(ends, negligible, min(starts, starts_that_agree(None, best.place.size))):
+    enough = min(starts, starts_that_agree(None, best.place.size))
+    if converged and _agree(ends, negligible, enough):
         return Finish(True, message, agreement)
-    if count == 1:
+    doubt = f"only {agree} of {count} starts agree" if agree > 1 else "no two starts agree"
+    if not converged:
+        doubt = "the best start ended before its steps had become small"
+    elif count == 1:
         return Finish(False, message, agreement)
-    only = f"only {agree} of {count} starts agree" if agree > 1 else "no two starts agree"
-    return Finish(False, message, agreement, f"{only}; give closer bounds, or another seed")
+    return Finish(False, message, agreement, f"{doubt}; give closer bounds, or another seed")
 
 
 def _agreement(ends: Sequence[End], negligible: float) -> Agreement:

@@ -1,16 +1,9 @@
 """Trust-region search: the exact measure on surrogates of the curves.
 
-This is composite optimisation: the model is expensive and smooth, the measure is cheap and has
-kinks. A surrogate replaces the simulated curves, and the measure of the predicted curves is
-minimised exactly. Read the modules in this order. `multistart` begins starts until enough of them
-agree. A start is a trust-region method (`descent`). Its steps come from an inner search of the
-measure (`surfaces.inner_search`) on a kriging surrogate (`surfaces.kriged_surface`) of the runs
-(`runs`). Before a start ends, a global stage (`global_stage`) searches the surrogate for other
-minima. If the model has a `jacobian`, a plane with its derivatives replaces the surrogate.
-
-A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000). S. M. Wild, R. G.
-Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in
-trust-regions", SIAM J. Sci. Comput. 30 (2008) 3197-3219.
+Read the modules in this order. `multistart` begins starts until enough of them agree (`starts`). A
+start is a trust-region method (`descent`). Its steps come from an inner search of the measure
+(`surfaces.inner_search`) on a kriging surrogate (`surfaces.kriged_surface`) of the runs (`runs`).
+Before a start ends, a global stage (`global_stage`) searches the surrogate for other minima.
 """
 
 from __future__ import annotations
@@ -22,15 +15,14 @@ from typing import ClassVar
 from ...curves.inputs import Array
 from ..problem.ledger import Course, Ledger
 from ..surfaces.inner_search import CurveSearch, InnerSearch
+from ..surfaces.steps import SMALL
 from .descent import Rules
-from .method import Method, with_other_defaults
+from .method import NEAR, Method, with_other_defaults
 from .multistart import Multistart
 from .runs import Runs
 from .starts import starts_that_agree
 
 __all__ = ["SurrogateSearch", "TrustRegion"]
-
-_NEAR = 0.1  # first radius for a start near the optimum
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -68,7 +60,7 @@ class SurrogateSearch(Method, name="", keeps_curves=True, needs_squares=False):
 
     def near_optimum(self) -> SurrogateSearch:
         """Return the same with a small first region."""
-        return with_other_defaults(self, initial_range=_NEAR)
+        return with_other_defaults(self, initial_range=NEAR)
 
     @abstractmethod
     def inner(self, ledger: Ledger) -> InnerSearch:
@@ -136,7 +128,14 @@ class TrustRegion(SurrogateSearch, name="trust-region", keeps_curves=True, needs
 
     Notes
     -----
-    A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000).
+    This is composite optimisation: the model is expensive and smooth, the measure is cheap and has
+    kinks. A surrogate replaces the simulated curves, and the measure of the predicted curves is
+    minimised exactly. If the model has a `jacobian`, a plane with its derivatives replaces the
+    surrogate.
+
+    A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000). S. M. Wild, R. G.
+    Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in
+    trust-regions", SIAM J. Sci. Comput. 30 (2008) 3197-3219.
 
     Examples
     --------
@@ -149,7 +148,7 @@ class TrustRegion(SurrogateSearch, name="trust-region", keeps_curves=True, needs
 
     def closer(self) -> TrustRegion:
         """Return the same for less, in a wider region, to leave a local minimum."""
-        return with_other_defaults(self, initial_range=0.3, gain=2e-5, tol=1e-4)
+        return with_other_defaults(self, initial_range=0.3, gain=2e-5, tol=SMALL)
 
     def inner(self, ledger: Ledger) -> CurveSearch:
         """Return the measure of curves."""

@@ -2,7 +2,7 @@
 
 A method is a course (`Course`): it yields a batch of points and receives their evaluations, in the
 same order. In between, the models are run by this package (`evaluations`) or by the caller of an
-ask-and-tell search (`methods.ask_tell`). Both write into this ledger, which numbers evaluations in
+ask-and-tell search (`ask_tell`). Both write into this ledger, which numbers evaluations in
 the order of the batches. Nothing that a method sees therefore depends on who ran which point, or on
 which run finished first.
 """

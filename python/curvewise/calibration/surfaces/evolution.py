@@ -2,10 +2,9 @@
 
 Generations of points are drawn from a normal distribution. Its mean moves to the better half of
 them, its covariance learns their directions, and its width follows the length of successive steps.
-The method needs no gradient and tolerates kinks and steps. Small generations converge quickly to
-one local minimum, which need not be the one at the start. The function must cost very little;
-`methods.global_search` searches models by the package cma, which is not needed here. Cost: members
-times generations evaluations, and about 0.1 ms for each generation.
+Small generations converge quickly to one local minimum, which need not be the one at the start. The
+package cma, which `methods.global_search` uses, is not needed here. Cost: members times generations
+evaluations, and about 0.1 ms for each generation.
 
 N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772.
 """
@@ -25,12 +24,12 @@ __all__ = ["evolved"]
 def evolved(
     function: Callable[[Array], Array],
     start: Array,
-    width: float,
     random: np.random.Generator,
     *,
-    members: int,
-    generations: int,
-    settled: float,
+    width: float = 0.3,
+    members: int = 12,
+    generations: int = 30,
+    settled: float = 5e-3,
 ) -> Array:
     """Return the lowest of all points that are drawn, shape (k,).
 

@@ -3,13 +3,11 @@
 The search itself does not depend on the measure. It uses runs as vectors, a surrogate of these
 vectors, and an inner search. Measures of curves differ in the minimum alone. Sums of distances are
 smooth almost everywhere; a quasi-Newton method for functions with kinks follows their gradient, and
-a simplex replaces it for measures without a gradient. Either may halt at a kink, beyond which the
-global stage of a search looks (`methods.global_stage`). A largest distance is a minimax problem
+a simplex replaces it for measures without a gradient. A largest distance is a minimax problem
 (`largest_distances`). Sums of squares use residuals as vectors (`sums_of_squares`).
 
 Curves of thousands of points are thinned to some hundreds for the inner search, and all points
-decide at its end. Cost: 20 to 80 evaluations of the measure with its gradient; 20 k without one,
-for k parameters.
+decide at its end. Cost: 20 to 80 evaluations of the measure with its gradient, 20 k without one.
 """
 
 from __future__ import annotations
@@ -27,6 +25,7 @@ from ..objective.objective import Objective
 from ..records.evaluation import Evaluation
 from . import largest_distances
 from .quasi_newton import nonsmooth_descent
+from .steps import SMALL
 from .surfaces import PredictedCurves, Responses, Surface
 
 __all__ = ["CurveSearch", "InnerSearch"]
@@ -36,8 +35,7 @@ __all__ = ["CurveSearch", "InnerSearch"]
 # be gained, they keep more points.
 _MOST_POINTS, _MORE_POINTS, _LESS = 400, 1600, 1e-3
 _EVALUATIONS, _POLISHING = 60, 8  # and those after thinned curves
-_OF_NEGLIGIBLE = 1e-4  # a step on a surrogate costs little
-_EDGE, _RESOLUTION = 0.1, 1e-3  # of the simplex, in sides of the box
+_EDGE = 0.1  # of the simplex, in sides of the box
 
 
 class InnerSearch(Protocol):
@@ -60,11 +58,8 @@ class InnerSearch(Protocol):
     def slopes(self, run: Evaluation, by_curve: list[Array]) -> Array | None:
         """Return the derivatives of a run's vector, shape (m, k), by those of its curves."""
 
-    def values(self, surface: Surface, points: Array) -> Array:
-        """Return what a surrogate predicts at points, shape (points,)."""
-
-    def estimates(self, surface: Surface, points: Array) -> Array:
-        """Return the same about, for less."""
+    def values(self, surface: Surface, points: Array, *, roughly: bool = False) -> Array:
+        """Return what a surrogate predicts at points, shape (points,), or about that for less."""
 
     def lowest(self, surface: Surface, start: Array, low: Array, high: Array) -> Array:
         """Return a local minimum in a box, from a start in it, never above the start."""
@@ -108,13 +103,9 @@ class CurveSearch:
         assert self._responses is not None
         return self._responses.slopes(by_curve)
 
-    def values(self, surface: Surface, points: Array) -> Array:
-        """Return the measure of predicted curves."""
-        return self._exact.values(surface, points)
-
-    def estimates(self, surface: Surface, points: Array) -> Array:
-        """Return the measure of some points of predicted curves."""
-        predicted = self._thinned or self._exact
+    def values(self, surface: Surface, points: Array, *, roughly: bool = False) -> Array:
+        """Return the measure of predicted curves, or of some of their points."""
+        predicted = (self._thinned if roughly else None) or self._exact
         return predicted.values(predicted.seen(surface), points)
 
     def lowest(self, surface: Surface, start: Array, low: Array, high: Array) -> Array:
@@ -152,7 +143,7 @@ def _minimised(
     seen = predicted.seen(surface)
     width = np.where(high > low, high - low, 1.0)
     place = (start - low) / width
-    negligible = _OF_NEGLIGIBLE * predicted.objective.negligible
+    negligible = SMALL * predicted.objective.negligible
     if predicted.objective.has_gradient:
 
         def function(place: Array) -> tuple[float, Array]:
@@ -161,20 +152,23 @@ def _minimised(
 
         found = nonsmooth_descent(function, place, negligible=negligible, most=most)
     else:
-        edges = np.where(place > 0.5, -_EDGE, _EDGE)
+        edges = np.diag(np.where(place > 0.5, -_EDGE, _EDGE))
         options = {
-            "initial_simplex": np.vstack((place, place + np.diag(edges))),
+            "initial_simplex": np.vstack((place, place + edges)),
             "maxfev": most * place.size // 2,
-            "xatol": _RESOLUTION,
+            "xatol": _LESS,
             "fatol": negligible,
         }
-        minimize = required("scipy.optimize").minimize
-        found = minimize(
-            lambda place: predicted.value(seen.at(low + place * width)),
-            place,
-            method="Nelder-Mead",
-            bounds=[(0.0, 1.0)] * place.size,
-            options=options,
-        ).x
+        found = (
+            required("scipy.optimize")
+            .minimize(
+                lambda place: predicted.value(seen.at(low + place * width)),
+                place,
+                method="Nelder-Mead",
+                bounds=[(0.0, 1.0)] * place.size,
+                options=options,
+            )
+            .x
+        )
     point: Array = np.clip(low + found * width, low, high)
     return point

@@ -1,20 +1,15 @@
 """Universal kriging of curves: a surrogate of each coordinate of each point, through runs.
 
 The model has a linear trend and a Matérn kernel (5/2) whose length is a few times the distance of
-the farthest run. Through k + 1 runs it is a plane; through more runs it is the interpolating
-surface with the least curvature. Each coordinate is used directly, or as the inverse hyperbolic
-sine of its distance from the central run, in units of a fifth of the test's bounding box. The
-likelihood selects one of the two. With the transformation, a run that leaves the box by far bends
-the surface near the centre only slightly.
+the farthest run. Through k + 1 runs it is a plane. Each coordinate is used directly, or as the
+inverse hyperbolic sine of its distance from the central run; the likelihood selects one of the two.
+With the transformation, a run that leaves the test's bounding box by far bends the surface near the
+centre only slightly. The nugget is the variance of the model's own noise, as a fraction of the
+kernel's. Restricted maximum likelihood (REML) estimates it from the runs.
 
-The nugget is the variance of the model's own noise, as a fraction of the kernel's. Restricted
-maximum likelihood (REML) estimates it from the runs. Of a smooth model it is the smallest.
-
-The value itself can be kriged, too (`lowest_value`). This is used if the surrogate of the curves is
-misleading. Curves whose phase depends strongly on the parameters have no useful surrogate by point
-number: beyond half a period its prediction is wrong. The value varies more smoothly.
-
-Cost: O(n^3 + n^2 m) for n runs of m coordinates, and O(n m) for a point.
+If the phase of curves depends strongly on the parameters, their surrogate by point number misleads.
+The value varies more smoothly, and `lowest_value` kriges it instead. Cost: O(n^3 + n^2 m) for n
+runs of m coordinates, and O(n m) for a point.
 
 J. Sacks, W. J. Welch, T. J. Mitchell, H. P. Wynn, "Design and analysis of computer experiments",
 Statistical Science 4 (1989) 409-423. H. D. Patterson, R. Thompson, "Recovery of inter-block
@@ -40,12 +35,11 @@ __all__ = ["KrigedSurface", "lowest_value"]
 _ROOT = math.sqrt(5.0)
 _LENGTH = 4.0  # of the kernel, in distances of the farthest run from the centre
 _NUGGETS = 10.0 ** np.arange(-8.0, 0.5, 0.5)
-_LEVEL = 1e-8  # the inverse prior variance of the trend's coefficients: nearly uninformative
 _FEWEST = 4  # degrees of freedom required to estimate noise
 _EVIDENCE = 2.0  # and the gain in likelihood, its logarithm by coordinate
 _UNIT = 0.2  # of a side of the box, from which on coordinates count by their logarithm
 _LARGEST = 100.0  # a transformed coordinate whose hyperbolic sine is still finite
-_PLACES, _MOST = 3, 50  # random places where the minimum of a value is sought, evaluations of each
+_PLACES = 3  # random places from which the minimum of a value is sought
 
 
 class KrigedSurface:
@@ -90,7 +84,8 @@ class KrigedSurface:
         system = np.zeros((count + k + 1, count + k + 1))
         system[:count, :count] = kernel
         system[:count, count:], system[count:, :count] = trend, trend.T
-        system.ravel()[count * (count + k + 2) :: count + k + 2] = -_LEVEL
+        # The trend's coefficients have a prior, which is nearly uninformative.
+        system.ravel()[count * (count + k + 2) :: count + k + 2] = -_NUGGETS[0]
         known = np.zeros((count + k + 1, vectors.shape[1]))
         known[:count] = vectors
         solved = np.linalg.solve(system, known)
@@ -140,10 +135,7 @@ class KrigedSurface:
         return restored
 
     def _bent(self, point: Array) -> tuple[Array, Array | None, Array, Array]:
-        """Return the coordinates, their slopes by the transformed ones, and the kernel's slopes.
-
-        The last two are its derivative divided by the distances, and the vectors from the runs.
-        """
+        """Return the coordinates, their slopes by transformed ones, and the kernel's parts."""
         place = (point - self._centre) / self._extent
         away = place - self._places
         kernel, by_distance = _kernel(_lengths(away))
@@ -165,11 +157,7 @@ class _Contrasts:
             self._sums = np.maximum(variances, 0.0) + _NUGGETS[:, np.newaxis]
 
     def nugget(self, vectors: Array) -> tuple[float, float, float]:
-        """Return the nugget by REML, the noise's deviation, and the logarithm of the likelihood.
-
-        The deviation is 0 of the smallest nugget; the logarithm is infinite where the runs are too
-        few for any.
-        """
+        """Return the nugget by REML, the noise's deviation, and the logarithm of the likelihood."""
         smallest = float(_NUGGETS[0])
         if self._free < _FEWEST:
             return smallest, 0.0, np.inf
@@ -225,7 +213,7 @@ def lowest_value(
         return float(value[0]), slopes[0] * width
 
     starts = [(centre - low) / width, *random.random((_PLACES, centre.size))]
-    found = [nonsmooth_descent(function, start, negligible=0.0, most=_MOST) for start in starts]
+    found = [nonsmooth_descent(function, start, negligible=0.0, most=50) for start in starts]
     points_found = np.clip(low + np.array(found) * width, low, high)
     predicted = np.exp(surface.at(points_found)[:, 0])
     best = int(np.argmin(predicted))

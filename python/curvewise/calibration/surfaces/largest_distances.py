@@ -4,9 +4,7 @@ The Fréchet distance is the largest of many distances. Its gradient is that of 
 points and does not lead to the minimum, where as many pairs as there are parameters are equally far
 apart. For a fixed coupling, minimising the largest distance is a minimax problem, solved by
 Madsen's method. Distances are linearised in the parameters, and a linear program finds the step
-within a trust region that minimises the largest of them. The region shrinks if the distance, with
-its new coupling, does not follow. A fixed coupling gives an upper bound, so a better coupling can
-only help.
+within a trust region that minimises the largest of them. A better coupling can only help.
 
 The coupling that attains the distance determines little about the pairs that do not decide. The
 warping path of squared distances keeps all pairs short and is used first. If it predicts no
@@ -30,15 +28,15 @@ from ...curves.inputs import Array
 from ...curves.scaling import box
 from ...measures import dtw_path, frechet, frechet_path
 from ...measures.results import Alignment
+from .steps import GOOD, SHRUNK, SMALL
 from .surfaces import PredictedCurves, Surface
 
 __all__ = ["minimised"]
 
 _STEPS_OF = 3  # evaluations with a gradient take the time of a step
 _DECIDING = 0.5  # of the distance: pairs that are nearer to each other are left out
-_SMALL = 1e-4  # of the value: a smaller predicted reduction is negligible
-_POOR, _GOOD = 0.25, 0.7  # ratios of actual to predicted reduction
-_SHRUNK, _SMALLEST, _ANEW = 0.4, 1e-3, 0.1  # regions, in sides of the box
+_POOR = 0.25  # of the predicted reduction: a step that gains less has failed
+_SMALLEST, _ANEW = 1e-3, 0.1  # regions, in sides of the box
 
 Coupling = Callable[[Array, Array], Alignment]
 _COUPLINGS: tuple[Coupling, ...] = (partial(dtw_path, metric="sqeuclidean"), frechet_path)
@@ -84,18 +82,18 @@ class _LargestDistances:
         for _ in range(most):
             step, promised = self._step(place, couplings[0], reach)
             gain, trial = -np.inf, np.clip(place + step, 0.0, 1.0)
-            if promised > _SMALL * value:
+            if promised > SMALL * value:
                 gain = value - self.value(trial)
                 length = float(np.abs(step).max())
                 if gain < _POOR * promised:
-                    reach = _SHRUNK * length
-                elif gain > _GOOD * promised:
+                    reach = SHRUNK * length
+                elif gain > GOOD * promised:
                     reach = max(reach, 2.0 * length)
             if gain > 0.0:
                 place, value = trial, value - gain
-            if gain > _SMALL * value:
+            if gain > SMALL * value:
                 couplings = list(_COUPLINGS)
-            elif promised <= _SMALL * value or reach < _SMALLEST:
+            elif promised <= SMALL * value or reach < _SMALLEST:
                 del couplings[0]
                 reach = max(reach, _ANEW)
                 if not couplings:

@@ -2,10 +2,10 @@
 
 `nonsmooth_descent` is for functions with kinks whose gradient is known, in the unit cube. Its line
 search requires only a sufficient decrease and a sufficient increase of the slope (weak Wolfe
-conditions). It therefore descends on functions that are smooth almost everywhere, such as sums of
-absolute values, where line searches for smooth functions fail. A search that cannot leave its start
-may stand on a kink. Its next direction is then the shortest vector of the convex hull of the
-gradients on both sides, along the kink. Cost: 20 to 100 evaluations for up to ten coordinates.
+conditions), so it descends where line searches for smooth functions fail. (With scipy's L-BFGS-B,
+searches take a third more runs.) A search that cannot leave its start may stand on a kink. Its next
+direction is then the shortest vector of the convex hull of the gradients on both sides, along the
+kink. Cost: 20 to 100 evaluations for up to ten coordinates.
 
 `quasi_newton` uses forward differences and backtracking, from an inverse Hessian of the right
 magnitude. Cost: about k + 2 evaluations for each step in k coordinates.
@@ -26,16 +26,13 @@ import numpy.typing as npt
 
 from ..._extras import required
 from ...curves.inputs import Array
+from .steps import FEW, ROUNDING, SMALL
 
 __all__ = ["nonsmooth_descent", "quasi_newton"]
 
-# A step must gain _DECREASE of what the slope predicts, and reduce the slope to _TURN of it. Gains
-# are small below _ENOUGH of the value; _PATIENCE small gains in a row end a round.
-_DECREASE, _TURN, _TRIALS = 1e-4, 0.9, 10
-_ENOUGH, _PATIENCE = 1e-4, 4
+# Wolfe's constants are SMALL, a usual value, and _TURN; _PATIENCE small gains in a row end a round.
+_TURN, _PATIENCE = 0.9, 4
 _FIRST_STEPS = (0.1, 0.03, 0.01)  # of each round, in sides of the cube
-_BACK = 0.4  # factor of a step that gains too little
-_LEAST_COSINE = 1e-12  # between a step and the change of the gradient
 
 
 class _Place(NamedTuple):
@@ -49,19 +46,19 @@ def nonsmooth_descent(
     start: Array,
     *,
     negligible: float,
-    most: int,
+    most: int = 60,
 ) -> Array:
     """Return the lowest point of the unit cube that was found, shape (k,).
 
-    The function returns value and gradient at a point. Gains below `negligible` do not count, and
-    `most` is the maximum number of evaluations.
+    The function returns value and gradient. Gains below `negligible` do not count, and `most` is
+    the maximum number of evaluations.
     """
     counted = _Counted(function, most)
     best = counted(start)
     for length in _FIRST_STEPS:
         before = best.value
         best = _round(counted, best, length, negligible)
-        if before - best.value <= max(negligible, _ENOUGH * abs(best.value)):
+        if before - best.value <= max(negligible, SMALL * abs(best.value)):
             break
     return best.point
 
@@ -99,7 +96,7 @@ def _round(function: _Counted, place: _Place, length: float, negligible: float) 
             break
         scaled = np.eye(k) * (length / norm) if inverse is None else inverse
         direction = -(scaled * np.outer(free, free)) @ gradient
-        if -float(gradient @ direction) <= max(negligible, 1e-3 * _ENOUGH * abs(place.value)):
+        if -float(gradient @ direction) <= max(negligible, 1e-3 * SMALL * abs(place.value)):
             break
         trial, is_lower = _searched(function, place, direction, free)
         if not is_lower:
@@ -115,7 +112,7 @@ def _round(function: _Counted, place: _Place, length: float, negligible: float) 
             inverse = _updated(scaled, step, change)
         small = (
             small + 1
-            if place.value - trial.value < max(negligible, _ENOUGH * abs(place.value))
+            if place.value - trial.value < max(negligible, SMALL * abs(place.value))
             else 0
         )
         place = trial
@@ -133,11 +130,11 @@ def _searched(
     slope = float(place.gradient @ direction)
     low, high, length = 0.0, np.inf, 1.0
     trial = place
-    for _ in range(_TRIALS):
+    for _ in range(FEW):
         trial = function(np.clip(place.point + length * direction, 0.0, 1.0))
         # A path that bends along the sides of the cube does not have a single slope.
         is_bent = bool(((trial.point <= 0.0) | (trial.point >= 1.0))[free].any())
-        if trial.value > place.value + _DECREASE * length * slope:
+        if trial.value > place.value + SMALL * length * slope:
             high = length
         elif not is_bent and float(trial.gradient @ direction) < _TURN * slope:
             low = length
@@ -165,7 +162,7 @@ def _shortest(gradients: Sequence[Array]) -> Array:
 def _has_curvature(step: Array, change: Array) -> bool:
     """Return whether the gradient's change over a step shows convexity."""
     lengths = float(np.linalg.norm(step) * np.linalg.norm(change))
-    return float(step @ change) > _LEAST_COSINE * lengths
+    return float(step @ change) > ROUNDING * lengths
 
 
 def _updated(inverse: Array, step: Array, change: Array) -> Array:
@@ -227,10 +224,10 @@ def _stepped(
     if not slope < -2.0 * enough:
         return None
     length = 1.0
-    for _ in range(_TRIALS):
+    for _ in range(FEW):
         trial = point + length * direction
         there = function(trial)
-        if there <= value + _DECREASE * length * slope:
+        if there <= value + SMALL * length * slope:
             return trial, there
-        length *= _BACK
+        length *= 0.5
     return None

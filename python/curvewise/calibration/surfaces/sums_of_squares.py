@@ -2,13 +2,11 @@
 
 Gauss-Newton steps minimise nonlinear residuals, within a region in which their linearisation is
 accurate. An active-set method solves the bounded linear problem of each step: a coordinate that
-meets its bound is fixed there, and released when the gradient points inwards. The function
-`lsq_linear` of scipy takes twenty times as long, mostly for bookkeeping, and a search solves
-hundreds of such problems. Cost: O(m k^2 + k^3) for each step, with m residuals of k unknowns.
+meets its bound is fixed there, and released when the gradient points inwards. (scipy's `lsq_linear`
+takes twenty times as long.) Cost: O(m k^2 + k^3) for each step, with m residuals of k unknowns.
 
 A robust sum, f^2 times the sum of rho((r / f)^2), is a sum of squares of transformed residuals, f
-sign(r) sqrt(rho((r / f)^2)). The names and the functions rho are those of
-scipy.optimize.least_squares.
+sign(r) sqrt(rho((r / f)^2)). Names and functions rho are those of scipy.optimize.least_squares.
 
 A. Björck, "Numerical methods for least squares problems", SIAM (1996), sections 5.2.3 and 9.2. B.
 Triggs, P. F. McLauchlan, R. I. Hartley, A. W. Fitzgibbon, "Bundle adjustment - a modern synthesis",
@@ -25,6 +23,7 @@ import numpy as np
 from ...curves.inputs import Array
 from ..objective.objective import Objective
 from ..records.evaluation import Evaluation
+from .steps import GOOD, POOR, ROUNDING, SHRUNK, SMALL
 from .surfaces import Surface
 
 __all__ = ["Loss", "SumOfSquares", "bend_of", "check_loss", "linear_minimum", "squares_minimum"]
@@ -35,12 +34,7 @@ Bend: TypeAlias = Callable[[Array], tuple[Array, Array]]
 ResidualsAndSlopes: TypeAlias = Callable[[Array], tuple[Array, Array]]
 """Residuals at a point, shape (m,), and their derivatives, shape (m, k)."""
 
-_ROUNDING = 1e-12  # of the gradient at the start, and of the mean of the diagonal
 _STEPS = 12  # of Gauss and Newton
-# Ratios of actual to predicted reduction below which a step is cut back, and above which the region
-# grows; factor of a step cut back.
-_POOR, _GOOD, _BACK = 0.1, 0.7, 0.4
-_SMALL = 1e-4  # gains smaller than this fraction of the sum, and smaller steps, end it
 # Fraction of the usual negligible value: near a perfect fit squares are smaller than distances.
 _OF_SQUARES = 1e-3
 
@@ -103,11 +97,9 @@ class SumOfSquares:
         """Return the derivatives of the residuals, along the slopes of the curves."""
         return self._objective.residual_slopes(run.simulations, by_curve)
 
-    def values(self, surface: Surface, points: Array) -> Array:
+    def values(self, surface: Surface, points: Array, *, roughly: bool = False) -> Array:
         """Return the sums of predicted residuals."""
         return self._sums(surface.at(points))
-
-    estimates = values
 
     def lowest(self, surface: Surface, start: Array, low: Array, high: Array) -> Array:
         """Return where the sum is smallest in a box."""
@@ -141,8 +133,8 @@ def linear_minimum(residuals: Array, slopes: Array, low: Array, high: Array) -> 
     k = low.size
     gradient = slopes.T @ residuals
     curvature = slopes.T @ slopes
-    curvature.ravel()[:: k + 1] += _ROUNDING * max(curvature.trace() / k, np.finfo(float).tiny)
-    enough = _ROUNDING * float(np.abs(gradient).max())
+    curvature.ravel()[:: k + 1] += ROUNDING * max(curvature.trace() / k, np.finfo(float).tiny)
+    enough = ROUNDING * float(np.abs(gradient).max())
     free, step, downhill = low < high, np.zeros(k), -gradient
     held = np.zeros(k, dtype=bool)
     for _ in range(8 * k):
@@ -183,14 +175,14 @@ def squares_minimum(
         trial = np.minimum(np.maximum(point + step, low), high)
         there, slopes_there = function(trial)
         gain = value - float(there @ there)
-        if gain < _POOR * promised:
-            reach = _BACK * float(np.abs(step).max())
-            if reach < _SMALL or promised <= _SMALL * value:
+        if gain < POOR * promised:
+            reach = SHRUNK * float(np.abs(step).max())
+            if reach < SMALL or promised <= SMALL * value:
                 break
             continue
-        if gain > _GOOD * promised:
+        if gain > GOOD * promised:
             reach = min(1.0, 2.0 * reach)
         point, residuals, slopes, value = trial, there, slopes_there, value - gain
-        if promised <= _SMALL * value:  # the remaining value is the square of that
+        if promised <= SMALL * value:  # the remaining value is the square of that
             break
     return point, float(residuals @ residuals)

@@ -48,10 +48,7 @@ class Responses:
         return np.concatenate([curve.ravel() for curve in curves])
 
     def slopes(self, by_curve: Sequence[Array] | None) -> Array | None:
-        """Return the derivatives of that vector, shape (coordinates, k), by those of the curves.
-
-        Return None for None, or if the numbers of points differ.
-        """
+        """Return the derivatives of that vector, (coordinates, k); None if they do not fit it."""
         if by_curve is None or [slopes.shape[:2] for slopes in by_curve] != self.shapes:
             return None
         return np.concatenate([slopes.reshape(-1, slopes.shape[2]) for slopes in by_curve])

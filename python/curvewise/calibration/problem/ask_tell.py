@@ -17,9 +17,9 @@ import numpy as np
 
 from ...curves.inputs import Array
 from ..models.pool import Outcome
-from ..problem.ledger import Course, Finish, Ledger, SearchEndedError
 from ..records.evaluation import Evaluation, Point, as_records
 from .endings import judged_end
+from .ledger import Course, Finish, Ledger, SearchEndedError
 
 __all__ = ["Answer", "OpenSearch"]
 

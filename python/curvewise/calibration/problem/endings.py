@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..objective.sampling import sampling_advice
-from ..problem.ledger import Finish, Ledger
+from .ledger import Finish, Ledger
 
 __all__ = ["judged_end"]
 
