@@ -1,5 +1,7 @@
 #include "continuous/boxed_curve.hpp"
 
+#include <algorithm>
+
 namespace curvewise::continuous {
 
 BoxedCurve::BoxedCurve(const CurveView& curve, const RangeScale& range, Poller& poller)
@@ -34,17 +36,38 @@ void BoxedCurve::add_boxes(Poller& poller) {
         if (count == 1) break;
     }
     boxes_.resize(static_cast<std::size_t>(first_number_.back()));
-    fill_leaves(poller);
+    switch (dim_) {
+        case 1:
+            fill_leaves<1>(poller);
+            break;
+        case 2:
+            fill_leaves<2>(poller);
+            break;
+        case 3:
+            fill_leaves<3>(poller);
+            break;
+        default:
+            fill_leaves<0>(poller);
+    }
     for (int level = 1; level < levels(); ++level) fill_level(level, poller);
 }
 
+template <int Dim>
 void BoxedCurve::fill_leaves(Poller& poller) {
+    const std::ptrdiff_t dim = Dim > 0 ? Dim : dim_;
     double* low = boxes_.data();
-    for (std::ptrdiff_t first = 0; first < n_ - 1; first += leaf, low += 2 * dim_) {
+    for (std::ptrdiff_t first = 0; first < n_ - 1; first += leaf, low += 2 * dim) {
         poller.poll_in_loop(static_cast<std::size_t>(first / leaf));
-        put_box_around(point<0>(first), low);
-        for (std::ptrdiff_t i = first + 1; i <= std::min(first + leaf, n_ - 1); ++i) {
-            grow(low, point<0>(i), point<0>(i));
+        const std::ptrdiff_t steps = std::min(leaf, n_ - 1 - first);
+        const double* x = point<Dim>(first);
+        for (std::ptrdiff_t c = 0; c < dim; ++c, ++x) {
+            double least = *x, greatest = *x;
+            for (std::ptrdiff_t i = 1; i <= steps; ++i) {
+                least = std::min(x[i * dim], least);  // in this order an instruction each
+                greatest = std::max(x[i * dim], greatest);
+            }
+            low[c] = least;
+            low[dim + c] = greatest;
         }
     }
 }

@@ -59,6 +59,7 @@ class BoxedCurve {
    private:
     void copy(const CurveView& curve, const RangeScale& range, Poller& poller);
     void add_boxes(Poller& poller);
+    template <int Dim>
     void fill_leaves(Poller& poller);
     void fill_level(int level, Poller& poller);
     // Makes the box whose least corner is at `low` that of a point.

@@ -1,14 +1,10 @@
-// Walks from vertex to vertex. The first decides whether a radius is at least the discrete Fréchet
-// distance: the walk of reachable.hpp over pairs of vertices alone (Eiter & Mannila 1994), by runs
-// of vertices. It is exact. Time O(n log m) for similar curves, O(n m) at worst; memory O(runs of a
-// row). The second is the greedy walk that always steps to the nearest of the next pairs. Its
-// success shows that the radius is sufficient. O(n + m), the filter of Bringmann, Künnemann &
-// Nusser (2019).
+// Decides whether a radius is at least the discrete Fréchet distance: the walk of reachable.hpp
+// over pairs of vertices alone (Eiter & Mannila 1994), by runs of vertices. It is exact. Time O(n
+// log m) for similar curves, O(n m) at worst; memory O(runs of a row).
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "continuous/free_space.hpp"
@@ -16,26 +12,6 @@
 #include "runtime/scratch.hpp"
 
 namespace curvewise::continuous {
-
-// A radius that is sufficient for the discrete distance is sufficient for the continuous one: both
-// ends of every step are in one cell, whose free space is convex.
-template <int Dim>
-bool greedy_walk_succeeds(const BoxedCurve& p, const BoxedCurve& q, const Radius& radius) {
-    const auto square = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
-        if (i == p.size() || j == q.size()) return std::numeric_limits<double>::infinity();
-        return square_distance<Dim>(p.point<Dim>(i), q.point<Dim>(j), p.dim());
-    };
-    std::ptrdiff_t i = 0, j = 0;
-    double leash = square(0, 0);
-    while (radius.surely_holds(leash)) {
-        if (i == p.size() - 1 && j == q.size() - 1) return true;
-        const double up = square(i + 1, j), right = square(i, j + 1), both = square(i + 1, j + 1);
-        leash = std::min(std::min(up, right), both);
-        i += leash == both || leash == up ? 1 : 0;
-        j += leash == both || leash != up ? 1 : 0;
-    }
-    return false;
-}
 
 template <int Dim>
 class CouplingWalk {

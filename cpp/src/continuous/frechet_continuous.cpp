@@ -8,12 +8,14 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "continuous/boxed_side.hpp"
 #include "continuous/coupling.hpp"
 #include "continuous/leash_bounds.hpp"
 #include "continuous/leash_search.hpp"
+#include "continuous/vertex_walk.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
 #include "runtime/growing_list.hpp"
@@ -24,8 +26,14 @@ namespace {
 
 using continuous::BoxedCurve;
 using continuous::CurveSummary;
+using continuous::FreeSet;
 using continuous::LeashSearch;
+using continuous::Radius;
+using continuous::VertexWalk;
+using continuous::Vertices;
+using curves::CheckedCurve;
 using curves::RangeScale;
+using runtime::Poller;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -33,6 +41,21 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 RangeScale plain_scale(double largest) noexcept {
     const bool is_plain = largest == 0.0 || (largest > 0x1p-100 && largest < 0x1p100);
     return is_plain ? RangeScale(1.0) : RangeScale::to_unity(largest);
+}
+
+// Calls use(dim), with a constant for 1 to 3 coordinates and 0 otherwise.
+template <class Use>
+auto with_dimension(std::ptrdiff_t dim, Use use) {
+    switch (dim) {
+        case 1:
+            return use(std::integral_constant<int, 1>());
+        case 2:
+            return use(std::integral_constant<int, 2>());
+        case 3:
+            return use(std::integral_constant<int, 3>());
+        default:
+            return use(std::integral_constant<int, 0>());
+    }
 }
 
 class FrechetContinuousMeasure : public pairwise::Distance {
@@ -49,28 +72,21 @@ class FrechetContinuousMeasure : public pairwise::Distance {
         return {FrechetContinuousOptions::measure, 1, false};
     }
     static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
-    static void check_p(const PreparedP& /*P*/, runtime::Poller& /*poller*/) noexcept {}
+    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
     std::ptrdiff_t workers() const noexcept { return workers_; }
     static std::int64_t steps(std::int64_t n, std::int64_t count, std::int64_t points) noexcept {
         return n * count + points;
     }
 
     template <class Use>
-    static auto with_dim(const PreparedP& P, const PreparedQ& Q, const BoxedCurve& p,
-                         const BoxedCurve& q, const RangeScale& range, const Call& call, Use use) {
-        const auto with = [&](auto search) { return use(search); };
-        const CurveView& first = P.checked.curve;
-        const CurveView& second = Q.checked.curve;
-        switch (p.dim()) {
-            case 1:
-                return with(LeashSearch<1>(first, second, p, q, range, call.poller, call.memory));
-            case 2:
-                return with(LeashSearch<2>(first, second, p, q, range, call.poller, call.memory));
-            case 3:
-                return with(LeashSearch<3>(first, second, p, q, range, call.poller, call.memory));
-            default:
-                return with(LeashSearch<0>(first, second, p, q, range, call.poller, call.memory));
-        }
+    static auto with_search_of(const PreparedP& P, const PreparedQ& Q, const BoxedCurve& p,
+                               const BoxedCurve& q, const RangeScale& range, const Call& call,
+                               Use use) {
+        return with_dimension(p.dim(), [&](auto dim) {
+            LeashSearch<dim> search(P.checked.curve, Q.checked.curve, p, q, range, call.poller,
+                                    call.memory);
+            return use(search);
+        });
     }
 
     // Calls use(search), the longer curve being the first.
@@ -81,11 +97,11 @@ class FrechetContinuousMeasure : public pairwise::Distance {
         const PreparedP& second = swap ? P : Q;
         const RangeScale range = plain_scale(std::max(P.checked.largest, Q.checked.largest));
         if (range.is_identity()) {
-            return with_dim(first, second, first.boxed, second.boxed, range, call, use);
+            return with_search_of(first, second, first.boxed, second.boxed, range, call, use);
         }
         const BoxedCurve p(first.checked.curve, range, call.poller);
         const BoxedCurve q(second.checked.curve, range, call.poller);
-        return with_dim(first, second, p, q, range, call, use);
+        return with_search_of(first, second, p, q, range, call, use);
     }
 
     double operator()(const PreparedP& P, const PreparedQ& Q, const Call& call) const {
@@ -180,6 +196,26 @@ auto with_search(const CurveView& P, const CurveView& Q, const FrechetContinuous
                                });
 }
 
+// Whether curves in the usual range, the longer one first, are within a distance. The ends and a
+// walk over vertices come first, since they need no boxes.
+template <int Dim>
+bool is_within(const CheckedCurve& P, const CheckedCurve& Q, const Radius& radius,
+               bool is_continuous, Poller& poller) {
+    const auto vertices_of = [](const CurveView& curve) {
+        return Vertices{curve.row_major(), curve.size(), curve.dim()};
+    };
+    VertexWalk<Dim> walk(vertices_of(P.curve), vertices_of(Q.curve),
+                         continuous::ExactSigns(Q.curve, P.curve), radius);
+    if (walk.misses_ends()) return false;
+    if (walk.succeeds(LeashSearch<Dim>::few_dead_ends)) return true;
+    const BoxedCurve p(P.curve.row_major(), P.curve, poller),
+        q(Q.curve.row_major(), Q.curve, poller);
+    continuous::LeashMemory memory;
+    LeashSearch<Dim> search(P.curve, Q.curve, p, q, RangeScale(1.0), poller, memory);
+    return is_continuous ? search.is_within_after(walk, radius)
+                         : search.is_coupled_within(radius.given());
+}
+
 }  // namespace
 
 double frechet_continuous(const CurveView& P, const CurveView& Q,
@@ -191,7 +227,7 @@ Interval frechet_continuous_bounds(const CurveView& P, const CurveView& Q,
                                    const FrechetContinuousOptions& options, Control* control) {
     return with_search(P, Q, options, control, [](auto& search) {
         const double high = search.value(infinity);
-        const bool is_exact = high < infinity && !search.is_within(high, continuous::FreeSet::open);
+        const bool is_exact = high < infinity && !search.is_within(high, FreeSet::open);
         return Interval{is_exact ? high : continuous::next_below(high), high};
     });
 }
@@ -220,9 +256,24 @@ bool frechet_within(const CurveView& P, const CurveView& Q, double distance, boo
         message << "distance is " << distance << "; give a number >= 0";
         throw std::invalid_argument(message.str());
     }
-    return with_search(P, Q, {}, control, [&](auto& search) {
-        return continuous ? search.is_within(distance) : search.is_coupled_within(distance);
-    });
+    const FrechetContinuousMeasure measure{FrechetContinuousOptions()};
+    const auto decide = [&](const CheckedCurve& p, const CheckedCurve& q, Poller& poller) {
+        const RangeScale range = plain_scale(std::max(p.largest, q.largest));
+        if (range.is_identity() && P.row_major() != nullptr && Q.row_major() != nullptr) {
+            const Radius radius(distance, range, P.dim(), FreeSet::closed);
+            const bool swap = P.size() < Q.size();
+            return with_dimension(P.dim(), [&](auto dim) {
+                return is_within<dim>(swap ? q : p, swap ? p : q, radius, continuous, poller);
+            });
+        }
+        const auto use = [&](const auto& first, const auto& second, const auto& call) {
+            return FrechetContinuousMeasure::with_search(first, second, call, [&](auto& search) {
+                return continuous ? search.is_within(distance) : search.is_coupled_within(distance);
+            });
+        };
+        return pairwise::with_prepared(measure, p, q, poller, use);
+    };
+    return pairwise::with_checked_pair(measure, P, Q, control, decide);
 }
 
 std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(

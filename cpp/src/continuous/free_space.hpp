@@ -235,6 +235,19 @@ class EdgeFamily {
         return first_where(from, last, blocked_box(k, radius), is_free);
     }
 
+    // Whether no edge has a free point. `near` is the edge where the search begins, and then one
+    // that has a free point.
+    bool is_blocked(std::ptrdiff_t k, const Radius& radius, std::ptrdiff_t& near) const {
+        const std::ptrdiff_t edges = vertices() - 1, begin = near;
+        if (vertex_is_free(begin, k, radius)) return false;
+        near = first_free_edge(begin, edges - 1, k, radius);
+        if (near < edges) return false;
+        near = 0;
+        if (vertex_is_free(0, k, radius)) return false;
+        near = first_free_edge(0, begin - 1, k, radius);
+        return near == begin;
+    }
+
    private:
     // Where the line through an edge enters and leaves the reach of a point, middle -+ half.
     struct Roots {

@@ -40,6 +40,7 @@
 #include "continuous/nearest.hpp"
 #include "continuous/reachable.hpp"
 #include "continuous/trail.hpp"
+#include "continuous/vertex_walk.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
@@ -73,14 +74,22 @@ class LeashSearch {
     // Whether the distance is at most, or below, a number.
     bool is_within(double distance, FreeSet set = FreeSet::closed) {
         const Radius radius = radius_of(distance, set);
-        if (is_too_short(radius)) return false;
-        if (greedy_walk_succeeds<Dim>(p_, q_, radius)) return true;
-        diagram_.start(radius, runs_);
-        trail_.forget_from(0);
-        trail_.note(0, runs_);
-        trail_radius_ = distance;
-        trail_end_ = walk(0, last_, radius, &trail_);
-        return trail_end_ == last_ && diagram_.is_through(runs_, radius);
+        VertexWalk<Dim> vertices({p_.point<Dim>(0), p_.size(), p_.dim()},
+                                 {q_.point<Dim>(0), q_.size(), q_.dim()}, second_signs_, radius);
+        return !is_too_short(radius) &&
+               (vertices.succeeds(few_dead_ends) || is_within_after(vertices, radius));
+    }
+    // The same where a walk over vertices has not succeeded with few dead ends. Filters come before
+    // most of the walk through the diagram, but not before a few of its rows, where some end.
+    static constexpr std::ptrdiff_t few_dead_ends = 16;
+    bool is_within_after(VertexWalk<Dim>& vertices, const Radius& radius) {
+        if (boxes_surely_miss(radius)) return false;
+        begin(radius);
+        const std::ptrdiff_t row = walk(0, last_, radius, &trail_, p_.size() + q_.size());
+        if (next_.empty()) return is_through(row, radius);  // nothing is reached of the next row
+        if (misses_behind(vertices.furthest(), radius)) return false;
+        if (vertices.succeeds()) return true;
+        return is_through(walk(row, last_, radius, &trail_), radius);
     }
 
     // The same of the discrete distance, and at most.
@@ -111,7 +120,48 @@ class LeashSearch {
     }
 
    private:
+    using Pair = typename VertexWalk<Dim>::Pair;
     static constexpr double none = -1.0;
+
+    // Whether a path leads through the diagram, row by row. Leaves a trail.
+    bool walks_through(const Radius& radius) {
+        begin(radius);
+        return is_through(walk(0, last_, radius, &trail_), radius);
+    }
+    void begin(const Radius& radius) {
+        diagram_.start(radius, runs_);
+        trail_.forget_from(0);
+        trail_.note(0, runs_);
+        trail_radius_ = none;
+    }
+    // The same for a walk that ended in `row`.
+    bool is_through(std::ptrdiff_t row, const Radius& radius) {
+        trail_radius_ = radius.given();
+        trail_end_ = row;
+        return row == last_ && diagram_.is_through(runs_, radius);
+    }
+
+    // Whether one of some vertices behind those of a pair is nowhere near the other curve: the
+    // negative filter of Bringmann, Künnemann & Nusser (2019), with the vertices 1, 3, 7, 15, ...
+    // behind and three between two of these. It is exact. Where a search has found the vertices
+    // farthest from the other curve, it is answered.
+    bool misses_behind(const Pair& pair, const Radius& radius) const {
+        if (has_witnesses_) return false;
+        const std::ptrdiff_t cells = diagram_.cells();
+        std::ptrdiff_t i = pair.i, j = pair.j, row_near = pair.j, column_near = pair.i;
+        for (std::ptrdiff_t step = 1, gap = 1; i < last_ || j < cells; step += gap) {
+            if (step == 8 * gap) gap *= 2;
+            i += gap;
+            j += gap;
+            poller_.spend(64);
+            // Curves that are alike advance by about the same number of edges.
+            row_near = std::min(row_near + gap - 1, cells - 1);
+            column_near = std::min(column_near + gap - 1, last_ - 1);
+            if (i < last_ && diagram_.row_is_blocked(i, radius, row_near)) return true;
+            if (j < cells && diagram_.column_is_blocked(j, radius, column_near)) return true;
+        }
+        return false;
+    }
 
     // The least double within which the curves are. It is not below `low`, which holds the
     // witnesses. Of no use where the search is astray.
@@ -124,7 +174,7 @@ class LeashSearch {
                 high = climb(low, high, window, tolerance);
                 if (is_astray()) return high;
                 const double less = below(high, tolerance, low);
-                if (less == low || !is_within(less)) {
+                if (less == low || !walks_through(radius_of(less))) {
                     low = less;
                     break;
                 }
@@ -152,6 +202,7 @@ class LeashSearch {
 
     // The vertices of either curve that are furthest from the other.
     void find_witnesses() {
+        has_witnesses_ = true;
         const double first = square_distance<Dim>(p_.point<Dim>(0), q_.point<Dim>(0), p_.dim());
         const double last =
             square_distance<Dim>(p_.point<Dim>(last_), q_.point<Dim>(q_.size() - 1), p_.dim());
@@ -168,11 +219,13 @@ class LeashSearch {
     // each other in a coordinate.
     bool is_too_short(const Radius& radius) const {
         poller_.spend(p_.size() + q_.size());
+        std::ptrdiff_t near = 0;
         return !diagram_.corner_is_free(0, 0, radius) ||
                !diagram_.corner_is_free(last_, diagram_.cells(), radius) ||
                boxes_surely_miss(radius) ||
-               (row_witness_ > 0 && diagram_.row_is_blocked(row_witness_, radius)) ||
-               (column_witness_ > 0 && diagram_.column_is_blocked(column_witness_, radius));
+               (row_witness_ > 0 && diagram_.row_is_blocked(row_witness_, radius, near)) ||
+               (column_witness_ > 0 &&
+                diagram_.column_is_blocked(column_witness_, radius, near = 0));
     }
 
     // What reaches furthest in a coordinate must meet something that reaches nearly as far.
@@ -194,10 +247,10 @@ class LeashSearch {
         return least_double(holds(below) ? 0.0 : below, infinity, 2, 1, holds);
     }
 
-    // Advances runs_, the reachable runs of row `from`, to row `to`. Returns the last row with
-    // reachable points.
-    std::ptrdiff_t walk(std::ptrdiff_t from, std::ptrdiff_t to, const Radius& radius,
-                        Trail* trail) {
+    // Advances runs_, the reachable runs of row `from`, to row `to`, or until the steps are `most`.
+    // Returns the last row with reachable points.
+    std::ptrdiff_t walk(std::ptrdiff_t from, std::ptrdiff_t to, const Radius& radius, Trail* trail,
+                        std::ptrdiff_t most = std::numeric_limits<std::ptrdiff_t>::max()) {
         for (std::ptrdiff_t i = from; i < to; ++i) {
             const std::ptrdiff_t cells = diagram_.advance(i, runs_, radius, next_);
             poller_.spend(8 + 2 * cells);
@@ -209,6 +262,8 @@ class LeashSearch {
             }
             std::swap(runs_, next_);
             if (trail != nullptr) trail->note(i + 1, runs_);
+            most -= 8 + 2 * cells;
+            if (most < 0) return i + 1;
         }
         return to;
     }
@@ -234,7 +289,7 @@ class LeashSearch {
     // least that passes the last one, within `tolerance` doubles, as far as the window shows; or
     // `high`, which is sufficient.
     double climb(double low, double high, std::ptrdiff_t& window, std::uint64_t tolerance) {
-        if (trail_radius_ != low) is_within(low);
+        if (trail_radius_ != low) walks_through(radius_of(low));
         std::ptrdiff_t dead = trail_end_;
         for (;;) {
             const Stretch stretch = around(dead, window);
@@ -272,6 +327,7 @@ class LeashSearch {
     ExactSigns second_signs_;  // of the edges of the second curve
     Diagram<Dim> diagram_;
     std::ptrdiff_t last_;  // row
+    bool has_witnesses_ = false;
     std::ptrdiff_t row_witness_ = 0;
     std::ptrdiff_t column_witness_ = 0;
     double guess_ = 0.0;

@@ -41,14 +41,13 @@ class Diagram {
     bool corner_is_free(std::ptrdiff_t i, std::ptrdiff_t j, const Radius& radius) const {
         return rows_.vertex_is_free(j, i, radius);
     }
-    bool row_is_blocked(std::ptrdiff_t i, const Radius& radius) const {
-        return !corner_is_free(i, 0, radius) &&
-               rows_.first_free_edge(0, cells() - 1, i, radius) == cells();
+    // Whether nothing of a row, or a column, is free. `near` is the edge where the search begins,
+    // and then the one that is free.
+    bool row_is_blocked(std::ptrdiff_t i, const Radius& radius, std::ptrdiff_t& near) const {
+        return rows_.is_blocked(i, radius, near);
     }
-    bool column_is_blocked(std::ptrdiff_t j, const Radius& radius) const {
-        const std::ptrdiff_t edges = rows() - 1;
-        return !corner_is_free(0, j, radius) &&
-               columns_.first_free_edge(0, edges - 1, j, radius) == edges;
+    bool column_is_blocked(std::ptrdiff_t j, const Radius& radius, std::ptrdiff_t& near) const {
+        return columns_.is_blocked(j, radius, near);
     }
 
     // The free part of edge j of the second curve in row i, and of edge i of the first in column j.
