@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,7 @@ class ContinuousCheck {
             "frechet_continuous times a power of two",
             curvewise::frechet_continuous(P_.times_power_of_two(k), Q_.times_power_of_two(k)),
             std::ldexp(value_, k), with_);
+        check_decisions_in_whole_numbers(square, k);
         Curve p = P_, q = Q_;
         const double far = std::ldexp(1.0, static_cast<int>(choices_.between(3, 49)));
         for (Curve* curve : {&p, &q}) {
@@ -59,6 +61,28 @@ class ContinuousCheck {
         }
         record_.same("frechet_continuous moved", curvewise::frechet_continuous(p, q), value_,
                      with_);
+    }
+
+    // At radii around the value, and at whole numbers, where many pairs of vertices are just
+    // within.
+    void check_decisions_in_whole_numbers(const textbook::Ratio& square, int exponent) const {
+        const Curve p = P_.times_power_of_two(exponent), q = Q_.times_power_of_two(exponent);
+        const double infinity = std::numeric_limits<double>::infinity();
+        for (const double radius :
+             {std::nextafter(value_, 0.0), value_, std::nextafter(value_, infinity),
+              value_ * choices_.uniform(0.0, 2.0), value_ * choices_.uniform(0.8, 1.2),
+              static_cast<double>(choices_.between(0, 9))}) {
+            const bool expected = compare_with_root(radius, square) >= 0;
+            const auto is_right = [&](bool is_within) {
+                record_.is_true("frechet_within in whole numbers", is_within == expected, with_,
+                                std::to_string(radius));
+            };
+            is_right(curvewise::frechet_within(P_, Q_, radius));
+            is_right(curvewise::frechet_within(Q_, P_, radius));
+            const double scaled = std::ldexp(radius, exponent);
+            if (std::ldexp(scaled, -exponent) != radius) continue;  // beyond the range of a double
+            is_right(curvewise::frechet_within(p, q, scaled));
+        }
     }
 
     // One part in 2^90 aside: a value that is a double itself must not depend on the rounding of

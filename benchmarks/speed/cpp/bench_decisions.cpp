@@ -6,9 +6,7 @@
 //
 // KIND is walk, noise or loop, FIRST the first pair's number. A line for each pair: its number,
 // then microseconds here and of the plain decision, and whether the answers agree, for each of 0.9,
-// 1 and 1.1 of the distance; then microseconds of the distance. With PAIRS 0, N is the number of
-// points, and the program decides pair FIRST a single time, here alone, at 0.9, 1 and 1.1: for
-// counts of instructions.
+// 1 and 1.1 of the distance; then microseconds of the distance.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
