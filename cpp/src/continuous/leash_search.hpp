@@ -87,8 +87,12 @@ class LeashSearch {
         begin(radius);
         const std::ptrdiff_t row = walk(0, last_, radius, &trail_, p_.size() + q_.size());
         if (next_.empty()) return is_through(row, radius);  // nothing is reached of the next row
-        if (misses_behind(vertices.furthest(), radius)) return false;
-        if (vertices.succeeds()) return true;
+        // A search has found the vertices farthest from the other curve, and asks close to the
+        // value.
+        if (!has_witnesses_) {
+            if (misses_behind(vertices.furthest(), radius)) return false;
+            if (vertices.succeeds()) return true;
+        }
         return is_through(walk(row, last_, radius, &trail_), radius);
     }
 
@@ -143,10 +147,8 @@ class LeashSearch {
 
     // Whether one of some vertices behind those of a pair is nowhere near the other curve: the
     // negative filter of Bringmann, Künnemann & Nusser (2019), with the vertices 1, 3, 7, 15, ...
-    // behind and three between two of these. It is exact. Where a search has found the vertices
-    // farthest from the other curve, it is answered.
+    // behind and three between two of these. It is exact.
     bool misses_behind(const Pair& pair, const Radius& radius) const {
-        if (has_witnesses_) return false;
         const std::ptrdiff_t cells = diagram_.cells();
         std::ptrdiff_t i = pair.i, j = pair.j, row_near = pair.j, column_near = pair.i;
         for (std::ptrdiff_t step = 1, gap = 1; i < last_ || j < cells; step += gap) {
