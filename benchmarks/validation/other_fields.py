@@ -27,7 +27,8 @@ import cma
 import numpy as np
 from places import ROOT
 
-from curvewise.calibration import Objective, identify
+from curvewise.calibration import Criterion, Objective, identify
+from curvewise.calibration.problem.space import Space
 
 MEASURES = ("area", "dtw", "frechet", "sum_of_squares")
 RUNS, CMA_RUNS = 300, 3000
@@ -100,17 +101,25 @@ class Search:
 
     def search_by_cma(self) -> None:
         """Time plain CMA-ES, with restarts, to its first hit."""
-        bounds = self.problem.bounds
-        objective = Objective(self.problem.model, self.problem.tests, bounds, **self.options)
-        begin, k = time.perf_counter(), len(bounds)
+        space, k = Space(self.problem.bounds), len(self.problem.bounds)
+        objective = Objective(self.problem.tests, Criterion(**self.options))
+
+        def value(unit: Any) -> float:
+            try:
+                return objective(self.problem.model(space.dictionary(space.point(unit))))
+            except Exception:  # a failed run
+                return objective(None)
+
+        begin = time.perf_counter()
         left, seed = CMA_RUNS, self.seed
         while left > 0:
             seed += 1
             options = {"bounds": [0, 1], "verbose": -9, "seed": seed, "maxfevals": left}
-            method = cma.CMAEvolutionStrategy(k * [0.5], 0.25, options)
+            # cma needs two parameters at least.
+            method = cma.CMAEvolutionStrategy(max(k, 2) * [0.5], 0.25, options)
             while not method.stop():
                 points = method.ask()
-                values = [objective(objective.space.point(np.asarray(point))) for point in points]
+                values = [value(np.asarray(point[:k])) for point in points]
                 method.tell(points, values)
                 left -= len(points)
                 if min(values) <= self.limit:
