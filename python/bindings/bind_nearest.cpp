@@ -108,9 +108,10 @@ class BoundIndex {
     }
 
     // X is a list, or None for the curves of the index, whose indices are then the fourth result.
+    // `exclusion` is of these.
     py::tuple kneighbors(const py::object& X, std::ptrdiff_t count, const py::object& workers,
-                         const py::object& progress) const {
-        if (X.is_none()) return neighbors_of_own(count, workers, progress);
+                         const py::object& progress, std::ptrdiff_t exclusion) const {
+        if (X.is_none()) return neighbors_of_own(count, workers, progress, exclusion);
         SearchRecord record;
         const SearchOptions options = search_options(workers, true, true, record);
         const Curves queries(X.cast<py::list>());
@@ -165,11 +166,12 @@ class BoundIndex {
 
     // Other threads may add curves, or remove some, before the search sees how many there are.
     py::tuple neighbors_of_own(std::ptrdiff_t count, const py::object& workers,
-                               const py::object& progress) const {
+                               const py::object& progress, std::ptrdiff_t exclusion) const {
         SearchRecord record;
         std::vector<std::int64_t> rows;
         SearchOptions options = search_options(workers, true, true, record);
         options.rows = &rows;
+        options.exclusion = exclusion;
         const auto found = interruptible(work(nullptr), progress, [&](Control* control) {
             return index_.kneighbors(count, options, control);
         });
@@ -197,8 +199,12 @@ class BoundIndex {
 
     static SearchOptions search_options(const py::object& workers, bool sort_results,
                                         bool with_distances, SearchRecord& record) {
-        return {whole_number("workers", workers, workers_range), sort_results, with_distances,
-                &record};
+        return {whole_number("workers", workers, workers_range),
+                sort_results,
+                with_distances,
+                &record,
+                nullptr,
+                0};
     }
 
     // An upper bound of the elementary steps ahead, and enough to be called without the lock.

@@ -20,6 +20,7 @@ from .comparing.tube import tube
 from .curves.layouts import LayoutWarning
 from .files.curve_files import read_curve
 from .many.averages import dtw_mean, medoid, soft_dtw_mean
+from .many.matrix_profile import matrix_profile
 from .many.nearest import Index
 from .many.pairwise import available_measures, cdist, pdist
 from .many.prepared import Prepared
@@ -58,6 +59,7 @@ __all__ = [
     "curves",
     "datasets",
     "dtw_mean",
+    "matrix_profile",
     "medoid",
     "pdist",
     "read_curve",

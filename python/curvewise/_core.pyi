@@ -146,6 +146,7 @@ class Index:
         n_neighbors: int,
         workers: SupportsIndex,
         progress: _Report | None,
+        exclusion: int,
         /,
     ) -> tuple[_Array, _Path, tuple[int, int, int], _Path | None]: ...
     def radius_neighbors(

@@ -69,6 +69,10 @@ struct SearchOptions {
     SearchRecord* record = nullptr;
     /// Receives the index of the curve of each row, if curves of the index are searched for.
     std::vector<std::int64_t>* rows = nullptr;
+    /// If curves of the index are searched for: how many curves next to a curve, on either side in
+    /// the order in which they were added, are not its neighbours. Rows of kneighbors() without
+    /// enough neighbours then end with the index -1 and an infinite distance.
+    std::ptrdiff_t exclusion = 0;
 };
 
 /// A file that Index::save() has written. Names of files are in UTF-8 on Windows, and as the system

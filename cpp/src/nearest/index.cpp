@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "curves/checks.hpp"
 #include "curves/owned_curve.hpp"
 #include "curvewise/nearest.hpp"
 #include "nearest/callers.hpp"
@@ -43,6 +45,8 @@ using pairwise::Seen;
 using pairwise::TargetQuery;
 using pairwise::Targets;
 using runtime::Poller;
+
+constexpr WholeNumberRange exclusion_range{0, "give a whole number >= 0"};
 
 }  // namespace
 
@@ -122,10 +126,12 @@ class Index::State {
         check_count(count, view.seen.remaining, X == nullptr);
         begin(X == nullptr ? static_cast<std::size_t>(view.seen.remaining) : X->size());
         const auto answer = [&](NeighborSearch& search, TargetQuery& query, std::size_t i,
-                                std::int64_t all_steps, std::ptrdiff_t left_out) {
+                                std::int64_t all_steps, nearest::LeftOut left_out) {
             runtime::ScratchVector<Neighbor> found =
                 search.nearest(query, all_steps, count, left_out);
             give_indices(found);
+            found.resize(static_cast<std::size_t>(count),
+                         {-1, std::numeric_limits<double>::infinity()});
             write(i, found);
         };
         ask(X, view, options, control, std::ref(answer));
@@ -140,7 +146,7 @@ class Index::State {
         std::vector<std::vector<Neighbor>> results(
             X == nullptr ? static_cast<std::size_t>(view.seen.remaining) : X->size());
         const auto answer = [&](NeighborSearch& search, TargetQuery& query, std::size_t i,
-                                std::int64_t all_steps, std::ptrdiff_t left_out) {
+                                std::int64_t all_steps, nearest::LeftOut left_out) {
             runtime::ScratchVector<Neighbor> found = search.within(
                 query, all_steps, radius, options.with_distances || options.sort_results, left_out);
             if (options.sort_results) std::sort(found.begin(), found.end(), nearest::is_nearer);
@@ -220,7 +226,9 @@ class Index::State {
              Control* control, const nearest::Answer& answer) const {
         Poller poller(control);
         const std::ptrdiff_t workers = runtime::resolve_workers(options.workers);
-        const Queries queries = checked(X, view, poller);
+        curves::check_whole_number("exclusion", options.exclusion, exclusion_range);
+        Queries queries = checked(X, view, poller);
+        queries.exclusion = options.exclusion;
         const SearchRecord record =
             QueryRun(*targets_, view.seen, queries, answer).run(workers, poller);
         if (options.rows != nullptr && X == nullptr) {

@@ -102,11 +102,11 @@ NeighborSearch::BoxBounds NeighborSearch::bounds_of(TargetQuery& query, const Bo
 
 runtime::ScratchVector<Neighbor> NeighborSearch::nearest(TargetQuery& query, std::int64_t all_steps,
                                                          std::ptrdiff_t count_wanted,
-                                                         std::ptrdiff_t left_out) {
+                                                         LeftOut left_out) {
     const OwnCount own_count(poller_);
     counted_ = 0;
     most_ = static_cast<std::size_t>(count_wanted);
-    left_out_ = left_out;
+    leave_out(left_out);
     best_.clear();
     heap_.clear();
     leaves_.clear();
@@ -120,7 +120,6 @@ runtime::ScratchVector<Neighbor> NeighborSearch::nearest(TargetQuery& query, std
         if (is_wanted(j)) heap_.push_back({quick_[static_cast<std::size_t>(j - first)], j, 0});
     }
     std::make_heap(heap_.begin(), heap_.end(), ComesLater());
-    record_.pairs += seen_.remaining - (left_out >= 0 ? 1 : 0);
     while (!heap_.empty() && !(heap_.front().bound > cutoff())) {
         std::pop_heap(heap_.begin(), heap_.end(), ComesLater());
         const Candidate candidate = heap_.back();
@@ -134,6 +133,12 @@ runtime::ScratchVector<Neighbor> NeighborSearch::nearest(TargetQuery& query, std
     count(poller_, all_steps - counted_);
     std::sort(best_.begin(), best_.end(), is_nearer);
     return best_;
+}
+
+void NeighborSearch::leave_out(LeftOut targets) noexcept {
+    left_out_ = targets;
+    record_.pairs += seen_.remaining;
+    for (std::ptrdiff_t j = targets.first; j <= targets.last; ++j) record_.pairs -= seen_.has(j);
 }
 
 void NeighborSearch::push(const Candidate& candidate) {
@@ -199,11 +204,10 @@ void NeighborSearch::look_at(TargetQuery& query, Candidate candidate) {
 
 runtime::ScratchVector<Neighbor> NeighborSearch::within(TargetQuery& query, std::int64_t all_steps,
                                                         double radius, bool with_distances,
-                                                        std::ptrdiff_t left_out) {
+                                                        LeftOut left_out) {
     const OwnCount own_count(poller_);
     counted_ = 0;
-    left_out_ = left_out;
-    record_.pairs += seen_.remaining - (left_out >= 0 ? 1 : 0);
+    leave_out(left_out);
     runtime::ScratchVector<Neighbor> found;
     const auto look_at = [&](std::ptrdiff_t target) {
         if (is_wanted(target)) look_within(query, target, radius, with_distances, found);

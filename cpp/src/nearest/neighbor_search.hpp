@@ -29,6 +29,14 @@ using pairwise::BoundTree;
 using pairwise::TargetQuery;
 using runtime::Poller;
 
+// Targets that a search skips, from the first to the last; by default none.
+struct LeftOut {
+    std::ptrdiff_t first = 0;
+    std::ptrdiff_t last = -1;
+
+    bool has(std::ptrdiff_t target) const noexcept { return target >= first && target <= last; }
+};
+
 // Smaller distances first, then smaller indices; NaN distances last.
 bool is_nearer(const Neighbor& a, const Neighbor& b) noexcept;
 
@@ -37,14 +45,12 @@ class NeighborSearch {
     // Of the targets that are seen. Throws Stopped where the poller says so.
     NeighborSearch(const pairwise::Targets& targets, const pairwise::Seen& seen, Poller& poller);
 
-    // The `count` nearest, in order. `left_out`: a target to skip, or -1. Counts `all_steps` as
-    // done.
+    // The `count` nearest, in order, or all there are. Counts `all_steps` as done.
     runtime::ScratchVector<Neighbor> nearest(TargetQuery& query, std::int64_t all_steps,
-                                             std::ptrdiff_t count, std::ptrdiff_t left_out);
+                                             std::ptrdiff_t count, LeftOut left_out);
     // All within `radius`, by index; the distances are nan where they are not wanted.
     runtime::ScratchVector<Neighbor> within(TargetQuery& query, std::int64_t all_steps,
-                                            double radius, bool with_distances,
-                                            std::ptrdiff_t left_out);
+                                            double radius, bool with_distances, LeftOut left_out);
 
     // The counts since the last call.
     SearchRecord take_record() noexcept { return std::exchange(record_, {}); }
@@ -68,8 +74,10 @@ class NeighborSearch {
         }
     };
     bool is_wanted(std::ptrdiff_t target) const noexcept {
-        return target != left_out_ && seen_.has(target);
+        return !left_out_.has(target) && seen_.has(target);
     }
+    // Also counts the pairs of the query.
+    void leave_out(LeftOut targets) noexcept;
     void push(const Candidate& candidate);
     // Puts boxes of a tree on the heap, from the `first` one of their level on.
     void push_boxes(TargetQuery& query, int tree, int level, std::ptrdiff_t first);
@@ -128,7 +136,7 @@ class NeighborSearch {
     runtime::ScratchVector<std::uint64_t> marks_;  // one bit for each target in a tree
     runtime::ScratchVector<OpenLeaf> leaves_;
     std::size_t most_leaves_ = 0;
-    std::ptrdiff_t left_out_ = -1;
+    LeftOut left_out_;
     runtime::ScratchVector<Neighbor> best_;  // a heap with the furthest on top
     std::size_t most_ = 0;
     std::int64_t counted_ = 0;

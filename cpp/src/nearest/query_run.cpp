@@ -26,7 +26,7 @@ void QueryRun::answer(NeighborSearch& search, std::size_t i, Poller& poller) {
     const LoadedCurve loaded(queries_.curves[i], poller);
     const CheckedCurve& P = loaded.checked();
     const std::unique_ptr<TargetQuery> query = targets_.query(P, poller);
-    answer_(search, *query, i, steps(P), queries_.left_out(i));
+    answer_(search, *query, i, steps(P), queries_.left_out(i, seen_.size));
     const SearchRecord record = search.take_record();
     const std::lock_guard<std::mutex> lock(mutex_);
     record_.pairs += record.pairs;

@@ -2,6 +2,7 @@
 // the number of threads changes nothing.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -19,17 +20,21 @@ using curves::CheckedCurve;
 using pairwise::Seen;
 using pairwise::Targets;
 
-// Answers one query: for curve `i` of the queries, without the target `left_out`, or -1.
+// Answers one query: for curve `i` of the queries.
 using Answer = std::function<void(NeighborSearch& search, TargetQuery& query, std::size_t i,
-                                  std::int64_t all_steps, std::ptrdiff_t left_out)>;
+                                  std::int64_t all_steps, LeftOut left_out)>;
 
-// The queries of one call: curves of the caller's, or those of the index, each without itself.
+// The queries of one call: curves of the caller's, or those of the index, each without itself and
+// the `exclusion` curves next to it on either side.
 struct Queries {
     runtime::ScratchVector<CheckedCurve> curves;
     std::vector<std::ptrdiff_t> targets;  // none where they are the caller's
+    std::ptrdiff_t exclusion = 0;
 
-    std::ptrdiff_t left_out(std::size_t i) const noexcept {
-        return targets.empty() ? -1 : targets[i];
+    LeftOut left_out(std::size_t i, std::ptrdiff_t size) const noexcept {
+        if (targets.empty()) return {};
+        const std::ptrdiff_t own = targets[i];
+        return {own - std::min(exclusion, own), own + std::min(exclusion, size - 1 - own)};
     }
 };
 

@@ -550,7 +550,7 @@ class Index:
         which = "the other curves of the index" if X is None else "the curves of the index"
         count = checked_count(n_neighbors, len(self) - (X is None), which)
         with self._reporting(progress) as report:
-            distances, indices, _, rows = self._index.kneighbors(queries, count, workers, report)
+            distances, indices, _, rows = self._index.kneighbors(queries, count, workers, report, 0)
         return distances, indices, rows, names
 
     def _queries(self, X: Curves | LabelledCurves | None) -> tuple[list[Array] | None, Labels]:

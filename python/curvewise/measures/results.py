@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
+from .._options import whole_number
 from ..curves.arc_length import points_at
 from ..drawing.bunch import bunch_figure
 from ..drawing.linked_curves import matching_figure, placement_figure
@@ -29,6 +30,7 @@ __all__ = [
     "DtwMean",
     "FarthestPoints",
     "Matching",
+    "MatrixProfile",
     "PcmMatch",
     "Subsequence",
     "WarpingInfo",
@@ -236,6 +238,88 @@ class Subsequence(Record):
     start: int
     stop: int
     path: npt.NDArray[np.int64] | None = None
+
+
+@dataclass(frozen=True, repr=False)
+class MatrixProfile(Record):
+    """The nearest neighbour of every window of a record.
+
+    Attributes
+    ----------
+    distances : ndarray, shape (m,)
+        The distance of each window from its nearest neighbour; infinite for windows that overlap
+        all others.
+    indices : ndarray of int64, shape (m,)
+        The start of that neighbour, the earliest of equally near ones; -1 if there is none.
+    exclusion : int
+        Largest distance of the starts of two windows that are not compared.
+    """
+
+    distances: npt.NDArray[np.float64]
+    indices: npt.NDArray[np.int64]
+    exclusion: int
+
+    def motifs(self, k: SupportsIndex = 1) -> list[tuple[int, int]]:
+        """Return the closest pairs of a window and its nearest neighbour.
+
+        Parameters
+        ----------
+        k : int >= 1
+            Maximum number of pairs.
+
+        Returns
+        -------
+        list of (int, int)
+            The starts of both windows, the earlier one first. The first pair is the closest of all.
+            Each later pair is the closest of those with both windows further than `exclusion` from
+            the windows of earlier pairs. Of equal distances the earlier window comes first.
+
+        Raises
+        ------
+        ValueError
+            If `k` is not a positive whole number.
+        """
+        pairs = zip(range(len(self.indices)), self.indices.tolist(), strict=True)
+        chosen = self._apart([(i, j) for i, j in pairs if j >= 0], self.distances, k)
+        return [(min(pair), max(pair)) for pair in chosen]
+
+    def discords(self, k: SupportsIndex = 1) -> list[int]:
+        """Return the windows that are furthest from their nearest neighbours.
+
+        Parameters
+        ----------
+        k : int >= 1
+            Maximum number of windows.
+
+        Returns
+        -------
+        list of int
+            The starts of the windows. Each later window is the furthest of those further than
+            `exclusion` from earlier ones. Of equal distances the earlier window comes first.
+
+        Raises
+        ------
+        ValueError
+            If `k` is not a positive whole number.
+        """
+        having = np.flatnonzero(self.indices >= 0).tolist()
+        return [i for (i,) in self._apart([(i,) for i in having], -self.distances, k)]
+
+    def _apart(
+        self, groups: Sequence[tuple[int, ...]], keys: npt.NDArray[np.float64], k: SupportsIndex
+    ) -> list[tuple[int, ...]]:
+        """Return the first `k` groups, by the key of their first window, that lie apart."""
+        count = whole_number("k", k, 1, "give a whole number >= 1")
+        is_free = np.ones(len(self.indices), dtype=np.bool_)
+        chosen: list[tuple[int, ...]] = []
+        for group in sorted(groups, key=lambda group: keys[group[0]]):
+            if is_free[list(group)].all():
+                chosen.append(group)
+                for start in group:
+                    is_free[max(start - self.exclusion, 0) : start + self.exclusion + 1] = False
+            if len(chosen) == count:
+                break
+        return chosen
 
 
 @dataclass(frozen=True, repr=False)

@@ -2,8 +2,8 @@
 
 The code neither prunes nor estimates. It computes the distances of this package for every pair or
 every window, and selects the results from them. Values and indices are bitwise identical to those
-of :class:`curvewise.Index`, :func:`curvewise.subsequence` and :func:`curvewise.dtw_mean`, if those
-of the measure are.
+of :class:`curvewise.Index`, :func:`curvewise.subsequence`, :func:`curvewise.matrix_profile` and
+:func:`curvewise.dtw_mean`, if those of the measure are.
 """
 
 from __future__ import annotations
@@ -19,11 +19,12 @@ from .._options import Default, Metric, Order, Radius, WarpingName, Window
 from ..curves.ground_distance import Root, before_root, check_metric, ground_distances, in_range
 from ..curves.inputs import Array, CurveLike, as_curve
 from ..curves.scaling import times_power_of_two
-from ..measures.results import DtwMean, Subsequence
+from ..curves.z_normalization import z_normalized
+from ..measures.results import DtwMean, MatrixProfile, Subsequence
 from .checks import check_pair
-from .dtw import dtw_path
+from .dtw import dtw, dtw_path
 
-__all__ = ["dtw_mean", "kneighbors", "radius_neighbors", "subsequence"]
+__all__ = ["dtw_mean", "kneighbors", "matrix_profile", "radius_neighbors", "subsequence"]
 
 Curves = Sequence[CurveLike]
 
@@ -90,6 +91,22 @@ def subsequence(
             if right > left:
                 pieces.append(_best_run(ground, measure, root, left, right))
     return answers
+
+
+def matrix_profile(
+    record: CurveLike, length: int, *, window: int | None = 0, exclusion: int | None = None
+) -> MatrixProfile:
+    """Return the nearest of all windows that are not excluded, from a table of all distances."""
+    curve = as_curve(record, "record")
+    zone = length // 2 if exclusion is None else exclusion
+    starts = np.arange(len(curve) - length + 1)
+    windows = [z_normalized(curve[i : i + length]) for i in starts]
+    sums = np.full((len(starts), len(starts)), np.inf)
+    for i, j in np.argwhere(np.abs(starts[:, np.newaxis] - starts) > zone):
+        sums[i, j] = dtw(windows[i], windows[j], metric="sqeuclidean", window=window)
+    indices = np.argmin(sums, axis=1)
+    least = sums[starts, indices]
+    return MatrixProfile(np.sqrt(least), np.where(np.isinf(least), -1, indices), zone)
 
 
 def dtw_mean(

@@ -130,6 +130,58 @@ void bounds_leave_most_pairs_out() {
     }
 }
 
+// Curves of a walk, which are near to those next to them: without these, others are the nearest.
+void curves_next_to_one_are_left_out() {
+    Random random(3);
+    std::vector<Curve> curves;
+    for (int i = 0; i < 300; ++i) {  // enough for trees
+        Curve curve = random.curve(4, 2);
+        for (std::ptrdiff_t k = 0; k < 4; ++k) curve(k, 0) += 0.1 * i;
+        curves.push_back(curve);
+    }
+    const std::vector<CurveView> C = views_of(curves);
+    std::vector<double> table(C.size() * C.size());
+    cdist(C, C, DtwOptions{}, table.data());
+    const Index index(C, DtwOptions{});
+    for (const std::ptrdiff_t exclusion : {0, 5, 149, 150, 298, 300}) {
+        SearchRecord counts;
+        SearchOptions options;
+        options.workers = 2;
+        options.record = &counts;
+        options.exclusion = exclusion;
+        const std::vector<Neighbor> found = index.kneighbors(2, options);
+        const auto within = index.radius_neighbors(table[200], options);
+        std::int64_t pairs = 0;
+        for (std::ptrdiff_t i = 0; i < 300; ++i) {
+            std::vector<Neighbor> row = sorted_row(table.data() + i * 300, 300);
+            row.erase(std::remove_if(row.begin(), row.end(),
+                                     [&](const Neighbor& other) {
+                                         return std::abs(other.index - i) <= exclusion;
+                                     }),
+                      row.end());
+            pairs += static_cast<std::int64_t>(row.size());
+            row.resize(std::max<std::size_t>(row.size(), 2),
+                       {-1, std::numeric_limits<double>::infinity()});
+            for (std::ptrdiff_t j = 0; j < 2; ++j) {
+                CHECK_EQUAL(found[static_cast<std::size_t>(2 * i + j)].index,
+                            row[static_cast<std::size_t>(j)].index);
+                CHECK_EQUAL(found[static_cast<std::size_t>(2 * i + j)].distance,
+                            row[static_cast<std::size_t>(j)].distance);
+            }
+            const auto is_within = [&](const Neighbor& other) {
+                return other.distance <= table[200];
+            };
+            CHECK_EQUAL(static_cast<std::ptrdiff_t>(within[static_cast<std::size_t>(i)].size()),
+                        std::count_if(row.begin(), row.end(), is_within));
+        }
+        CHECK_EQUAL(counts.pairs, 2 * pairs);  // of both searches
+    }
+    SearchOptions options;
+    options.exclusion = -1;
+    CHECK_THROWS(index.kneighbors(1, options), std::invalid_argument,
+                 "exclusion is -1; give a whole number >= 0");
+}
+
 // The second curve has the smaller bound and is computed first. The bound of the first one equals
 // the distance that was found. The first one is as near and comes before it.
 void a_bound_that_is_the_distance_is_looked_at() {
@@ -369,6 +421,7 @@ int main() {
     return check::run(
         {{"neighbors are those of a sorted table", neighbors_are_those_of_a_sorted_table},
          {"bounds leave most pairs out", bounds_leave_most_pairs_out},
+         {"curves next to one are left out", curves_next_to_one_are_left_out},
          {"a bound that is the distance is looked at", a_bound_that_is_the_distance_is_looked_at},
          {"a control ends a search", a_control_ends_a_search},
          {"refusals name the curve", refusals_name_the_curve},
