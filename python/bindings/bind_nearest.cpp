@@ -15,6 +15,7 @@
 #include "bind_topics.hpp"
 #include "curve_list.hpp"
 #include "curvewise/dtw_mean.hpp"
+#include "curvewise/matrix_profile.hpp"
 #include "curvewise/nearest.hpp"
 #include "curvewise/subsequence.hpp"
 #include "interruptible.hpp"
@@ -251,6 +252,19 @@ py::tuple found_outside(const CurveArray& low, const CurveArray& high, const Cur
                           Numbers({Q.shape(1), count}, found.scales.data()));
 }
 
+// Distances and indices.
+py::tuple found_profile(const CurveArray& record, const CurveArray& means,
+                        const CurveArray& deviations, std::ptrdiff_t exclusion,
+                        const py::object& workers) {
+    const std::ptrdiff_t threads = whole_number("workers", workers, workers_range);
+    const CurveView x = view(record), m = view(means), s = view(deviations);
+    const auto count = static_cast<double>(m.size());
+    const MatrixProfile found = interruptible(
+        count * count * static_cast<double>(x.dim()), py::none(),
+        [&](Control* control) { return matrix_profile(x, m, s, exclusion, threads, control); });
+    return py::make_tuple(as_array(found.distances), as_array(found.indices));
+}
+
 py::tuple found_mean(const py::list& list, const std::vector<double>& weights,
                      const CurveArray& initial, const py::object& window, const py::object& rounds,
                      double tolerance, const py::object& workers, const py::object& progress) {
@@ -298,6 +312,7 @@ void bind_nearest(py::module_& module) {
     module.def("dtw_subsequences", found_subsequences<DtwOptions>);
     module.def("frechet_subsequences", found_subsequences<FrechetOptions>);
     module.def("runs_outside", found_outside);
+    module.def("matrix_profile", found_profile);
     module.def("dtw_mean", found_mean);
 }
 

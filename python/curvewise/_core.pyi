@@ -165,6 +165,14 @@ def frechet_subsequences(P: _Array, Q: _Array, count: int, options: _Options, /)
 def runs_outside(
     low: _Array, high: _Array, Q: _Array, options: _Options, of_largest: bool, /
 ) -> tuple[_Array, _Array]: ...
+def matrix_profile(
+    record: _Array,
+    means: _Array,
+    deviations: _Array,
+    exclusion: int,
+    workers: SupportsIndex,
+    /,
+) -> tuple[_Array, _Path]: ...
 def dtw_mean(
     curves: list[_Array],
     weights: list[float],

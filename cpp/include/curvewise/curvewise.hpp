@@ -11,6 +11,7 @@
 #include "curvewise/dtw_mean.hpp"
 #include "curvewise/gradient.hpp"
 #include "curvewise/materials.hpp"
+#include "curvewise/matrix_profile.hpp"
 #include "curvewise/measure.hpp"  // and all measures
 #include "curvewise/nearest.hpp"
 #include "curvewise/options.hpp"

@@ -1,7 +1,8 @@
 """Motifs and discords: the nearest neighbour of every window of a record, its matrix profile.
 
 Yeh et al., "Matrix profile I: all pairs similarity joins for time series" (2016). The compiled
-library finds the neighbours with the bounds of :class:`curvewise.Index`.
+library finds Euclidean neighbours along the diagonals of the table of all pairs (Zimmerman et al.,
+"Matrix Profile XIV", 2019), and those of dtw with the bounds of :class:`curvewise.Index`.
 """
 
 from __future__ import annotations
@@ -11,11 +12,12 @@ from typing import SupportsIndex
 import numpy as np
 
 from .._core import Index as CompiledIndex
+from .._core import matrix_profile as find_profile
 from .._docstrings import filled
 from .._options import Default, whole_number
 from ..curves.checks import check_finite
 from ..curves.inputs import Array, CurveLike, as_curve, in_columns
-from ..curves.z_normalization import normalized_windows
+from ..curves.z_normalization import normalized_windows, window_moments
 from ..measures.results import MatrixProfile
 
 __all__ = ["matrix_profile"]
@@ -74,9 +76,12 @@ def matrix_profile(
     `window`, of both normalised windows. Neighbours are the nearest by the sum under the root, of
     equal ones the earliest. A coordinate that is constant in a window is normalised to 0.
 
-    Every window is searched for in an index of all windows. Time O(n^2) for the bounds, and
-    O(length window) for each pair that its bounds do not exclude; memory O(n length). See Yeh et
-    al., "Matrix profile I: all pairs similarity joins for time series" (2016).
+    Euclidean distances take O(n^2) time and O(n) memory a thread. Products of windows are updated
+    along diagonals; the bound of their rounding tells which pairs must be computed as defined. For
+    dtw, every window is searched for in an index of all windows: O(n^2) time for the bounds,
+    O(length window) for each pair that these do not exclude, and O(n length) memory. See Yeh et
+    al., "Matrix profile I: all pairs similarity joins for time series" (2016), and Zimmerman et
+    al., "Matrix Profile XIV" (2019).
 
     Examples
     --------
@@ -102,7 +107,16 @@ def matrix_profile(
             f"record has shape {points.shape}; length {n} and exclusion {zone} need at least "
             f"{n + zone + 1} points"
         )
+    if window == 0:
+        return _euclidean(points, n, zone, workers)
     return _warped(points, n, window, zone, workers)
+
+
+def _euclidean(points: Array, length: int, exclusion: int, workers: SupportsIndex) -> MatrixProfile:
+    # A power of two changes no digit, and keeps squares within the range of a double.
+    scaled = np.ldexp(points, -np.frexp(np.abs(points).max())[1])
+    means, deviations = window_moments(scaled, length)
+    return MatrixProfile(*find_profile(scaled, means, deviations, exclusion, workers), exclusion)
 
 
 def _warped(

@@ -57,6 +57,7 @@ LONG_CALLS: dict[str, Callable[[], object]] = {
     "kneighbors, 2 workers": lambda: MANY_ALIKE.kneighbors(n_neighbors=1999, workers=2),
     "radius_neighbors": lambda: MANY_AREA.radius_neighbors(radius=1.0),
     "subsequence": lambda: curvewise.subsequence(*LONG, k=3),
+    "matrix_profile": lambda: curvewise.matrix_profile(LONG[0], 100, workers=2),
     "matrix_profile, dtw": lambda: curvewise.matrix_profile(LONG[0][:9000], 300, window=30),
     "dtw_mean": lambda: curvewise.dtw_mean(LONG, initial=LONG[0], workers=2),
     "medoid": lambda: curvewise.medoid(MANY, "frechet", metric="minkowski", p=3),

@@ -14,6 +14,7 @@ namespace {
 #include "beside.inl.hpp"
 #include "block.inl.hpp"
 #include "boxes.inl.hpp"
+#include "diagonals.inl.hpp"
 #include "line.inl.hpp"
 #include "narrow.inl.hpp"
 #include "resident.inl.hpp"
@@ -35,6 +36,7 @@ const KernelSet CURVEWISE_LEVEL = {select_advance,
                                    narrow,
                                    width,
                                    select_beside,
+                                   scan_diagonals,
                                    arcs,
                                    soft_forward<false>,
                                    soft_forward<true>,

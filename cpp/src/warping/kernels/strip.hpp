@@ -21,6 +21,7 @@
 #include "block.hpp"
 #include "boxes.hpp"
 #include "curvewise/ground_distance.hpp"
+#include "diagonals.hpp"
 #include "line.hpp"
 #include "narrow.hpp"
 #include "runs.hpp"
@@ -131,6 +132,7 @@ struct KernelSet {
     std::ptrdiff_t lanes;  // of a SIMD vector: the rows that it takes
     // Several pairs at once.
     BesideKernels (*beside)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim) noexcept;
+    DiagonalFunction scan_diagonals;
     ArcFunction arcs;
     SoftForward soft_forward;
     SoftForward soft_forward_with_shares;
