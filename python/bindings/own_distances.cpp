@@ -29,7 +29,7 @@ bool is_own_metric(const py::object& metric) {
 
 const BlockDistances* OwnDistances::of(const py::object& metric) {
     blocks_ = answers().attr("block_distances")(metric, P_, Q_);
-    function_ = [this](const TableBlock& block, double* out) { write(block, out); };
+    function_ = BlockDistances([this](const TableBlock& block, double* out) { write(block, out); });
     return &function_;
 }
 

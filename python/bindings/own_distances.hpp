@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "curvewise/block_distances.hpp"
 #include "curvewise/dtw.hpp"
 #include "curvewise/frechet.hpp"
 #include "numpy_view.hpp"

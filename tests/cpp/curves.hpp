@@ -120,9 +120,14 @@ inline std::vector<std::vector<int>> powers_for_x_and_y() {
             {700, -700},    {0, 900},     {-900, 3}};
 }
 
+// "(5, 2)", or "(5,)" for a flat list.
+inline std::string shape_of(const curvewise::CurveView& curve) {
+    const std::string n = std::to_string(curve.size());
+    return "(" + n + (curve.is_flat() ? "," : ", " + std::to_string(curve.dim())) + ")";
+}
+
 inline std::string described(const Curve& P, const Curve& Q) {
-    const auto shape = [](const Curve& C) { return static_cast<curvewise::CurveView>(C).shape(); };
-    return "P of shape " + shape(P) + ", Q of shape " + shape(Q);
+    return "P of shape " + shape_of(P) + ", Q of shape " + shape_of(Q);
 }
 
 }  // namespace test

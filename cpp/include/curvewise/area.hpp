@@ -18,15 +18,15 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <vector>
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/options.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// The length of a segment in the refinement. For raw stress-strain loops use `x` (or scale the
 /// curves by normalize()), for functions of x use `function`. With `distance`, stress is the larger
@@ -115,9 +115,5 @@ struct AreaQuads {
                                      const CurveView& Q, Control* control = nullptr) {
     return area(P, Q, options, control);
 }
-
-namespace pairwise {  // for pairwise.hpp
-std::unique_ptr<const class BatchMeasure> batch_measure(const AreaOptions& options);
-}  // namespace pairwise
 
 }  // namespace curvewise

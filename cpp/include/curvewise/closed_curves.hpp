@@ -25,13 +25,14 @@
 #include <limits>
 
 #include "curvewise/alignment.hpp"
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
 #include "curvewise/options.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// Which distances closed_dtw() and closed_frechet() compare.
 struct ClosedOptions {

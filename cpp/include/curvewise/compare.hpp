@@ -10,12 +10,13 @@
 #include <optional>
 #include <vector>
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/measure.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// The conditions under which each measure is computed.
 enum class Preset {

@@ -26,7 +26,6 @@
 
 #include <array>
 #include <cstddef>
-#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -137,9 +136,6 @@ class CurveView {
         return is_row && row_stride_ == dim_ ? data_ : nullptr;
     }
     bool is_flat() const noexcept { return dim_ == 1 && col_stride_ == 0; }
-
-    /// "(5, 2)", or "(5,)" for a flat list.
-    [[nodiscard]] CURVEWISE_EXPORT std::string shape() const;
 
    private:
     struct Sequence {};

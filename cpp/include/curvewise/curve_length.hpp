@@ -15,14 +15,13 @@
 ///     const double value = curvewise::curve_length(experiment, simulation, options);
 #pragma once
 
-#include <memory>
-
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/options.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// The divisor of the differences in x (and in y), each taken over P.
 enum class LengthScale {
@@ -70,9 +69,5 @@ CURVEWISE_EXPORT void curve_length_residuals(const CurveView& P, const CurveView
                                      const CurveView& Q, Control* control = nullptr) {
     return curve_length(P, Q, options, control);
 }
-
-namespace pairwise {  // for pairwise.hpp
-std::unique_ptr<const class BatchMeasure> batch_measure(const CurveLengthOptions& options);
-}  // namespace pairwise
 
 }  // namespace curvewise

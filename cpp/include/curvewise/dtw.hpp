@@ -20,11 +20,9 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <optional>
 
 #include "curvewise/alignment.hpp"
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
@@ -33,6 +31,8 @@
 #include "curvewise/warping_info.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// Which paths dtw() allows, what it adds up along them, and how it is computed.
 struct DtwOptions {
@@ -122,9 +122,5 @@ CURVEWISE_EXPORT void dtw_table(const CurveView& P, const CurveView& Q, double* 
                                      const CurveView& Q, Control* control = nullptr) {
     return dtw(P, Q, options, control);
 }
-
-namespace pairwise {  // for pairwise.hpp
-std::unique_ptr<const class BatchMeasure> batch_measure(const DtwOptions& options);
-}  // namespace pairwise
 
 }  // namespace curvewise

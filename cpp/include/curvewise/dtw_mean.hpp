@@ -19,11 +19,12 @@
 #include <optional>
 #include <vector>
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 
 namespace curvewise {
+
+class Control;
 
 /// How dtw_mean() matches points, and when it ends.
 struct DtwMeanOptions {

@@ -10,20 +10,20 @@
 
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/ground_distance.hpp"
 #include "curvewise/options.hpp"
 #include "curvewise/recurrence.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// The common options. Each struct also names the costs of its steps, in visit_costs().
 struct EditOptions {
@@ -220,12 +220,5 @@ double evaluate(const Options& options, const CurveView& P, const CurveView& Q,
                 Control* control = nullptr) {
     return warp(options.recurrence(), P, Q, control);
 }
-
-namespace pairwise {  // for pairwise.hpp
-template <class Options, class = std::enable_if_t<is_edit_distance<Options>>>
-std::unique_ptr<const class BatchMeasure> batch_measure(const Options& options) {
-    return batch_measure(options.recurrence());
-}
-}  // namespace pairwise
 
 }  // namespace curvewise

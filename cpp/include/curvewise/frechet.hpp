@@ -14,10 +14,8 @@
 
 #include <cstddef>
 #include <limits>
-#include <memory>
 
 #include "curvewise/alignment.hpp"
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
@@ -25,6 +23,8 @@
 #include "curvewise/warping_info.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// Which distances frechet() compares, and how it is computed.
 struct FrechetOptions {
@@ -82,9 +82,5 @@ CURVEWISE_EXPORT void frechet_table(const CurveView& P, const CurveView& Q, doub
                                      const CurveView& Q, Control* control = nullptr) {
     return frechet(P, Q, options, control);
 }
-
-namespace pairwise {  // for pairwise.hpp
-std::unique_ptr<const class BatchMeasure> batch_measure(const FrechetOptions& options);
-}  // namespace pairwise
 
 }  // namespace curvewise

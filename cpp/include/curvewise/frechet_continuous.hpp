@@ -21,15 +21,15 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <vector>
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/options.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// How frechet_continuous() is computed.
 struct FrechetContinuousOptions {
@@ -97,11 +97,5 @@ frechet_continuous_path(const CurveView& P, const CurveView& Q,
                                      const CurveView& Q, Control* control = nullptr) {
     return frechet_continuous(P, Q, options, control);
 }
-
-namespace pairwise {
-class BatchMeasure;
-std::unique_ptr<const BatchMeasure> batch_measure(
-    const FrechetContinuousOptions& options);  // for pairwise.hpp
-}  // namespace pairwise
 
 }  // namespace curvewise

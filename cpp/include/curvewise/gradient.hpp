@@ -23,7 +23,6 @@
 #include <vector>
 
 #include "curvewise/area.hpp"
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/curve_length.hpp"
 #include "curvewise/dtw.hpp"
@@ -33,6 +32,8 @@
 #include "curvewise/soft_dtw.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// Output arrays of the derivatives; null if not required.
 struct Gradients {

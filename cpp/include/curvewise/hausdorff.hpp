@@ -9,15 +9,15 @@
 #pragma once
 
 #include <limits>
-#include <memory>
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
 #include "curvewise/options.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// Which distances hausdorff() compares.
 struct HausdorffOptions {
@@ -51,9 +51,5 @@ void visit_options(HausdorffOptions& options, Visit&& visit) {
                                      const CurveView& Q, Control* control = nullptr) {
     return hausdorff(P, Q, options, control);
 }
-
-namespace pairwise {  // for pairwise.hpp
-std::unique_ptr<const class BatchMeasure> batch_measure(const HausdorffOptions& options);
-}  // namespace pairwise
 
 }  // namespace curvewise

@@ -18,14 +18,13 @@
 ///     std::printf("%g at %g\n", found.distance, found.from_p.parameter);
 #pragma once
 
-#include <memory>
-
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/options.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// Which distances hausdorff_continuous() compares.
 struct HausdorffContinuousOptions {
@@ -75,9 +74,5 @@ struct HausdorffPoints {
                                      const CurveView& Q, Control* control = nullptr) {
     return hausdorff_continuous(P, Q, options, control);
 }
-
-namespace pairwise {  // for pairwise.hpp
-std::unique_ptr<const class BatchMeasure> batch_measure(const HausdorffContinuousOptions& options);
-}  // namespace pairwise
 
 }  // namespace curvewise

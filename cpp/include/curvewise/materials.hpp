@@ -55,11 +55,12 @@
 #include <variant>
 #include <vector>
 
-#include "curvewise/control.hpp"
 #include "curvewise/export.h"
 #include "curvewise/options.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// The change of Young's modulus while plastic strain accumulates.
 enum class Modulus {

@@ -32,12 +32,13 @@
 #include <string>
 #include <vector>
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/measure.hpp"
 
 namespace curvewise {
+
+class Control;
 
 namespace nearest {
 struct OpenedIndex;

@@ -19,12 +19,13 @@
 #include <memory>
 #include <vector>
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/measure.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// Whether d(P, Q) = d(Q, P): dtw without open ends, frechet, and (to rounding) area except with
 /// Spacing::arc_length.

@@ -14,15 +14,15 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <vector>
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/options.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// At which offsets pcm() lays one curve onto the other.
 struct PcmOptions {
@@ -83,9 +83,5 @@ struct PcmMatch {
                                      const CurveView& Q, Control* control = nullptr) {
     return pcm(P, Q, options, control);
 }
-
-namespace pairwise {  // for pairwise.hpp
-std::unique_ptr<const class BatchMeasure> batch_measure(const PcmOptions& options);
-}  // namespace pairwise
 
 }  // namespace curvewise

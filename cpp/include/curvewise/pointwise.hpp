@@ -8,11 +8,12 @@
 ///     curvewise::normalize(P, Q, scaled.data());   // Q in the box of P
 #pragma once
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 
 namespace curvewise {
+
+class Control;
 
 /// The sum, over all n dim entries, of the squared difference.
 [[nodiscard]] CURVEWISE_EXPORT double sum_of_squares(const CurveView& P, const CurveView& Q,

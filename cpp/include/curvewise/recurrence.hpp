@@ -12,18 +12,18 @@
 
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "curvewise/alignment.hpp"
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
 #include "curvewise/options.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// The cost that a step adds for a cell that lies some rows and columns behind its end.
 enum class CostFrom {
@@ -135,9 +135,5 @@ struct Recurrence {
 /// Writes c to out[i * m + j]; infinity outside the window.
 CURVEWISE_EXPORT void warp_table(const Recurrence& recurrence, const CurveView& P,
                                  const CurveView& Q, double* out, Control* control = nullptr);
-
-namespace pairwise {  // for pairwise.hpp
-std::unique_ptr<const class BatchMeasure> batch_measure(const Recurrence& recurrence);
-}  // namespace pairwise
 
 }  // namespace curvewise

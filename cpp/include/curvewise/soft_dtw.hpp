@@ -20,12 +20,13 @@
 #include <cstddef>
 #include <optional>
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/options.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// How smooth the minimum is, and which paths count.
 struct SoftDtwOptions {

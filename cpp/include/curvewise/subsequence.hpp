@@ -20,13 +20,14 @@
 #include <cstddef>
 #include <vector>
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/dtw.hpp"
 #include "curvewise/export.h"
 #include "curvewise/frechet.hpp"
 
 namespace curvewise {
+
+class Control;
 
 /// A run of consecutive points of Q.
 struct Subsequence {

@@ -12,11 +12,12 @@
 /// zero points or not 2 coordinates. Throws std::bad_alloc and Stopped.
 #pragma once
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 
 namespace curvewise {
+
+class Control;
 
 /// In units of x times units of y.
 [[nodiscard]] CURVEWISE_EXPORT double symmetric_difference(const CurveView& P, const CurveView& Q,

@@ -8,14 +8,7 @@
 
 #include "curves/sphere.hpp"
 
-namespace curvewise {
-
-std::string CurveView::shape() const {
-    if (is_flat()) return "(" + std::to_string(n_) + ",)";
-    return "(" + std::to_string(n_) + ", " + std::to_string(dim_) + ")";
-}
-
-namespace curves {
+namespace curvewise::curves {
 namespace {
 
 // A curve among those of a call, and its name when a message needs it.
@@ -24,7 +17,7 @@ struct Named {
     std::size_t i;
 
     const CurveView& curve() const noexcept { return (*list)[i]; }
-    std::string with_shape() const { return list->name_of(i) + " has shape " + curve().shape(); }
+    std::string with_shape() const { return list->name_of(i) + " has shape " + shape_of(curve()); }
 };
 
 [[noreturn]] void refuse(const std::string& what, const std::string& need) {
@@ -135,6 +128,11 @@ double largest_magnitude(const CurveView& curve, const std::string& name, runtim
 
 }  // namespace
 
+std::string shape_of(const CurveView& curve) {
+    const std::string n = std::to_string(curve.size());
+    return "(" + n + (curve.is_flat() ? "," : ", " + std::to_string(curve.dim())) + ")";
+}
+
 CheckedCurve::CheckedCurve(const CurveView& view, std::string view_name, runtime::Poller& poller)
     : curve(view), name(std::move(view_name)), largest(largest_magnitude(curve, name, poller)) {}
 
@@ -193,5 +191,4 @@ void check_limit(const char* option, double limit, bool may_be_negative) {
            may_be_negative ? "give a number" : "give a number >= 0");
 }
 
-}  // namespace curves
-}  // namespace curvewise
+}  // namespace curvewise::curves

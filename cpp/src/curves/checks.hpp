@@ -68,6 +68,9 @@ struct CheckedCurve {
     void put_on_sphere();
 };
 
+// "(5, 2)", or "(5,)" for a flat list.
+std::string shape_of(const CurveView& curve);
+
 // The shapes of the curves of both sides, which must agree in their number of coordinates. A list
 // that is compared with itself is given once.
 void check_shapes(const Requirements& needs, const CurveList& first, const CurveList& second);

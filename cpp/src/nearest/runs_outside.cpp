@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "curves/checks.hpp"
 #include "curvewise/subsequence.hpp"
 #include "runtime/aligned_buffer.hpp"
 #include "warping/dispatch.hpp"
@@ -13,8 +14,8 @@ RunsOutside runs_outside(const CurveView& low, const CurveView& high, const Curv
                          Metric metric, bool of_largest) {
     const std::ptrdiff_t n = low.size(), m = Q.size(), dim = Q.dim();
     if (n < 1 || n != high.size() || low.dim() != dim || high.dim() != dim) {
-        throw std::invalid_argument("low, high and Q have shapes " + low.shape() + ", " +
-                                    high.shape() + " and " + Q.shape() +
+        throw std::invalid_argument("low, high and Q have shapes " + curves::shape_of(low) + ", " +
+                                    curves::shape_of(high) + " and " + curves::shape_of(Q) +
                                     "; give the corners of one box or more, in Q's dimensions");
     }
     const bool is_degree_one = metric != Metric::sqeuclidean && metric != Metric::haversine;

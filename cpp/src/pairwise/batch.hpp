@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 
 #include "curves/checks.hpp"
 #include "curves/owned_curve.hpp"
@@ -96,5 +97,20 @@ class PreparedCurve {
     CurveView P_;
     std::unique_ptr<const BatchMeasure::Rows> rows_;
 };
+
+// Of every measure, defined beside it.
+std::unique_ptr<const BatchMeasure> batch_measure(const AreaOptions& options);
+std::unique_ptr<const BatchMeasure> batch_measure(const CurveLengthOptions& options);
+std::unique_ptr<const BatchMeasure> batch_measure(const DtwOptions& options);
+std::unique_ptr<const BatchMeasure> batch_measure(const FrechetOptions& options);
+std::unique_ptr<const BatchMeasure> batch_measure(const FrechetContinuousOptions& options);
+std::unique_ptr<const BatchMeasure> batch_measure(const HausdorffOptions& options);
+std::unique_ptr<const BatchMeasure> batch_measure(const HausdorffContinuousOptions& options);
+std::unique_ptr<const BatchMeasure> batch_measure(const PcmOptions& options);
+std::unique_ptr<const BatchMeasure> batch_measure(const Recurrence& recurrence);
+template <class Options, class = std::enable_if_t<is_edit_distance<Options>>>
+std::unique_ptr<const BatchMeasure> batch_measure(const Options& options) {
+    return batch_measure(options.recurrence());
+}
 
 }  // namespace curvewise::pairwise

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "curvewise/block_distances.hpp"
 #include "runtime/aligned_buffer.hpp"
 #include "runtime/poller.hpp"
 #include "runtime/scratch.hpp"

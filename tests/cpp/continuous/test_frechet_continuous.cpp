@@ -3,6 +3,7 @@
 // Also decisions; matchings; the range of doubles; messages.
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -13,6 +14,7 @@
 #include "check.hpp"
 #include "continuous/exact_signs.hpp"
 #include "curves.hpp"
+#include "curvewise/control.hpp"
 #include "curvewise/frechet.hpp"
 #include "curvewise/frechet_continuous.hpp"
 #include "curvewise/pairwise.hpp"

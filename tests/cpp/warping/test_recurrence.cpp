@@ -9,6 +9,7 @@
 
 #include "check.hpp"
 #include "curves.hpp"
+#include "curvewise/block_distances.hpp"
 #include "curvewise/dtw.hpp"
 #include "curvewise/edit_distances.hpp"
 #include "curvewise/recurrence.hpp"
