@@ -207,7 +207,7 @@ bool is_within(const CheckedCurve& P, const CheckedCurve& Q, const Radius& radiu
     VertexWalk<Dim> walk(vertices_of(P.curve), vertices_of(Q.curve),
                          continuous::ExactSigns(Q.curve, P.curve), radius);
     if (walk.misses_ends()) return false;
-    if (walk.succeeds(LeashSearch<Dim>::few_dead_ends)) return true;
+    if (walk.succeeds(poller, LeashSearch<Dim>::few_dead_ends)) return true;
     const BoxedCurve p(P.curve.row_major(), P.curve, poller),
         q(Q.curve.row_major(), Q.curve, poller);
     continuous::LeashMemory memory;

@@ -77,7 +77,7 @@ class LeashSearch {
         VertexWalk<Dim> vertices({p_.point<Dim>(0), p_.size(), p_.dim()},
                                  {q_.point<Dim>(0), q_.size(), q_.dim()}, second_signs_, radius);
         return !is_too_short(radius) &&
-               (vertices.succeeds(few_dead_ends) || is_within_after(vertices, radius));
+               (vertices.succeeds(poller_, few_dead_ends) || is_within_after(vertices, radius));
     }
     // The same where a walk over vertices has not succeeded with few dead ends. Filters come before
     // most of the walk through the diagram, but not before a few of its rows, where some end.
@@ -91,7 +91,7 @@ class LeashSearch {
         // value.
         if (!has_witnesses_) {
             if (misses_behind(vertices.furthest(), radius)) return false;
-            if (vertices.succeeds()) return true;
+            if (vertices.succeeds(poller_)) return true;
         }
         return is_through(walk(row, last_, radius, &trail_), radius);
     }

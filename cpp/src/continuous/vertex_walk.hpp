@@ -20,6 +20,7 @@
 #include "continuous/boxed_curve.hpp"
 #include "continuous/exact_signs.hpp"
 #include "continuous/free_space.hpp"
+#include "runtime/poller.hpp"
 #include "runtime/scratch.hpp"
 
 namespace curvewise::continuous {
@@ -91,10 +92,12 @@ class VertexWalk {
         return !is_free(first, square(first)) || !is_free(last, square(last));
     }
     // Whether it comes from the first pair, which is free, to the last, with at most `most` pairs
-    // remembered. Goes on where it gave up.
-    bool succeeds(std::ptrdiff_t most = std::numeric_limits<std::ptrdiff_t>::max()) {
+    // remembered. Goes on where it gave up. Throws Stopped where the poller says so.
+    bool succeeds(runtime::Poller& poller,
+                  std::ptrdiff_t most = std::numeric_limits<std::ptrdiff_t>::max()) {
         moves_.reserve(static_cast<std::size_t>(p_.size + q_.size));
-        while (at_.i < p_.size - 1 || at_.j < q_.size - 1) {
+        for (std::size_t step = 1; at_.i < p_.size - 1 || at_.j < q_.size - 1; ++step) {
+            poller.poll_in_loop(step);
             const Move move = next_move();
             if (move != Move::none) {
                 moves_.push_back(move);

@@ -329,8 +329,9 @@ void check(const CurveView& record, const CurveView& means, const CurveView& dev
     const std::ptrdiff_t count = means.size();
     if (count < 1 || count > record.size() || deviations.size() != count || record.dim() < 1 ||
         means.dim() != record.dim() || deviations.dim() != record.dim()) {
-        throw std::invalid_argument("record, means and deviations have shapes " + record.shape() +
-                                    ", " + means.shape() + " and " + deviations.shape() +
+        throw std::invalid_argument("record, means and deviations have shapes " +
+                                    curves::shape_of(record) + ", " + curves::shape_of(means) +
+                                    " and " + curves::shape_of(deviations) +
                                     "; give a mean and a deviation of each window");
     }
     curves::check_whole_number("exclusion", exclusion, exclusion_range);

@@ -33,6 +33,7 @@ using curvewise::continuous::Radius;
 using curvewise::continuous::RangeScale;
 using curvewise::continuous::Runs;
 using curvewise::continuous::VertexWalk;
+using curvewise::runtime::Poller;
 using test::Curve;
 using test::Random;
 
@@ -78,7 +79,7 @@ class Pair {
    private:
     const Curve& P_;
     const Curve& Q_;
-    curvewise::runtime::Poller poller_;
+    Poller poller_;
     BoxedCurve p_, q_;
 };
 
@@ -159,6 +160,7 @@ void one_far_vertex() {
 
 // At the distance of a pair of vertices, many of which are equal.
 void walks_over_vertices() {
+    Poller unwatched(nullptr);
     Random random(58);
     int successes = 0, couplings = 0;
     for (int k = 0; k < 400; ++k) {
@@ -176,7 +178,8 @@ void walks_over_vertices() {
                 continue;
             }
             const bool exists = pair.coupling_exists(radius);
-            const bool succeeds = walk.succeeds(random.between(0, 8)) || walk.succeeds();
+            const bool succeeds =
+                walk.succeeds(unwatched, random.between(0, 8)) || walk.succeeds(unwatched);
             if (succeeds) CHECK(exists);
             successes += succeeds ? 1 : 0;
             couplings += exists ? 1 : 0;
@@ -187,28 +190,30 @@ void walks_over_vertices() {
 }
 
 void open_and_closed() {
+    Poller unwatched(nullptr);
     const Curve P{{0, 0}, {3, 0}}, Q{{0, 1}, {3, 1}};
     const Pair pair(P, Q);
-    CHECK(pair.walk(pair.radius(1.0)).succeeds());
+    CHECK(pair.walk(pair.radius(1.0)).succeeds(unwatched));
     CHECK(!pair.walk(pair.radius(1.0)).misses_ends());
     CHECK(pair.walk(pair.radius(1.0, FreeSet::open)).misses_ends());
     const Pair same(P, P);
     CHECK(!same.walk(same.radius(0.0)).misses_ends());
-    CHECK(same.walk(same.radius(0.0)).succeeds());
-    CHECK(same.walk(same.radius(infinity)).succeeds());
+    CHECK(same.walk(same.radius(0.0)).succeeds(unwatched));
+    CHECK(same.walk(same.radius(infinity)).succeeds(unwatched));
 }
 
 // The nearest pairs lead to (3, 1), from where the walk has to go back two steps.
 void a_blind_alley() {
+    Poller unwatched(nullptr);
     const Curve P({0, 3, 1, 2}, 1), Q({0, 2, 4, 1}, 1);
     const Pair pair(P, Q);
     VertexWalk<0> walk = pair.walk(pair.radius(1.0));
-    CHECK(!walk.succeeds(0));
+    CHECK(!walk.succeeds(unwatched, 0));
     CHECK_EQUAL(walk.furthest().i, 3);
     CHECK_EQUAL(walk.furthest().j, 1);
-    CHECK(!walk.succeeds(1));
-    CHECK(walk.succeeds());  // goes on
-    CHECK(!pair.walk(pair.radius(0.5)).succeeds());
+    CHECK(!walk.succeeds(unwatched, 1));
+    CHECK(walk.succeeds(unwatched));  // goes on
+    CHECK(!pair.walk(pair.radius(0.5)).succeeds(unwatched));
 }
 
 void numbers_in_a_set() {
