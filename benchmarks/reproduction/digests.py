@@ -91,6 +91,8 @@ MATERIAL = (
     PACKAGE / "materials" / "yoshida_uemori.py",
     CPP / "src" / "materials" / "dual.hpp",
     CPP / "src" / "materials" / "flow_series.hpp",
+    CPP / "src" / "materials" / "law.hpp",
+    CPP / "src" / "materials" / "law.inl.hpp",
     CPP / "src" / "materials" / "path.cpp",
     CPP / "src" / "materials" / "path.hpp",
     CPP / "src" / "materials" / "yoshida_uemori.cpp",
