@@ -259,7 +259,8 @@ class DiagonalSearch {
             const bool is_near_j = may_improve(j, i, score - all_.sizes[i]);
             if (!is_near_i && !is_near_j) continue;
             const double most =
-                std::max(is_near_i ? found_[i].square : 0.0, is_near_j ? found_[j].square : 0.0);
+                std::max(is_near_i ? found_[static_cast<std::size_t>(i)].square : 0.0,
+                         is_near_j ? found_[static_cast<std::size_t>(j)].square : 0.0);
             const double square = windows_.squared_distance(i, j, most);
             if (square > most) continue;
             improve(i, j, square);
@@ -280,12 +281,13 @@ class DiagonalSearch {
 
     // Also where the score is nan.
     bool may_improve(std::ptrdiff_t i, std::ptrdiff_t j, double score) const noexcept {
-        return !(score < limits_.data()[i]) && found_[i].is_improved_by(0.0, j);
+        return !(score < limits_.data()[i]) &&
+               found_[static_cast<std::size_t>(i)].is_improved_by(0.0, j);
     }
 
     void improve(std::ptrdiff_t i, std::ptrdiff_t j, double square) noexcept {
-        if (!found_[i].is_improved_by(square, j)) return;
-        found_[i] = {square, j};
+        if (!found_[static_cast<std::size_t>(i)].is_improved_by(square, j)) return;
+        found_[static_cast<std::size_t>(i)] = {square, j};
         limits_.data()[i] =
             all_.sizes[i] - square / static_cast<double>(2 * windows_.length) - windows_.tolerance;
     }
