@@ -16,11 +16,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 
 namespace curvewise {
+
+class Control;
 
 /// The nearest neighbour of each window.
 struct MatrixProfile {

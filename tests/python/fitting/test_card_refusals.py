@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
 
+from curvewise.calibration import Uncertainty
 from curvewise.commands import main
 from curvewise.fitting import MaterialFit, UndeterminedCardError, fit_material
 from curvewise.fitting.card_refusals import refusals_of
@@ -46,15 +48,17 @@ def fit() -> MaterialFit:
 def test_only_a_modulus_and_a_yield_stress_are_doubtful_and_only_by_the_rule(
     name: str, value: float, interval: tuple[float, float], reason: str | None
 ) -> None:
-    known = SimpleNamespace(
-        parameters={name: value}, intervals={name: interval}, determined={name: False}, level=0.95
+    determined = {name: False}
+    stand_in = SimpleNamespace(
+        parameters={name: value}, intervals={name: interval}, determined=determined, level=0.95
     )
+    known = cast(Uncertainty, stand_in)
     bounds, yield_stress = {name: (3.2, 200.0)}, "Y" if name == "Y" else "yield"
-    doubts = refusals_of(known, bounds, "ksi", yield_stress)  # type: ignore[arg-type]
+    doubts = refusals_of(known, bounds, "ksi", yield_stress)
     assert list(doubts) == ([] if reason is None else [name])
     assert reason is None or reason in doubts[name]
-    known.determined[name] = True
-    assert refusals_of(known, {name: (3.2, 200.0)}, "ksi", "Y") == {}  # type: ignore[arg-type]
+    determined[name] = True
+    assert refusals_of(known, {name: (3.2, 200.0)}, "ksi", "Y") == {}
 
 
 def test_what_is_not_searched_for_or_not_known_is_no_doubt(fit: MaterialFit) -> None:
