@@ -108,7 +108,8 @@ int curvewise_compare(const curvewise_curve* P, const curvewise_curve* Q,
                       curvewise_error* error) {
     return guarded(error, [&] {
         constexpr const char* start = "CURVEWISE_COMPARISON";
-        curvewise::c::size_of(at(found, "found"), start);
+        require(found, "found");
+        curvewise::c::size_of<curvewise_comparison>(found, start);
         const curvewise_compare_options given = complete(options);
         const curvewise::Comparison compared = curvewise::compare(
             view(P, "P"), view(Q, "Q"), choice<curvewise::Preset>("preset", given.preset),
@@ -119,7 +120,7 @@ int curvewise_compare(const curvewise_curve* P, const curvewise_curve* Q,
                                           compared.frechet,
                                           compared.dtw,
                                           value_or_nan(compared.curve_length)};
-        curvewise::c::write_covered(result, *found, start);
+        curvewise::c::write_covered(result, found, start);
     });
 }
 
@@ -143,7 +144,8 @@ int curvewise_pcm_match(const curvewise_curve* P, const curvewise_curve* Q,
                         curvewise_error* error) {
     return guarded(error, [&] {
         constexpr const char* start = "CURVEWISE_PCM_PLACE";
-        curvewise::c::size_of(at(place, "place"), start);
+        require(place, "place");
+        curvewise::c::size_of<curvewise_pcm_place>(place, start);
         if (points != nullptr) require(count, "count");
         const curvewise_pcm_options given = complete(options);
         const curvewise::PcmMatch match = curvewise::pcm_match(
@@ -158,7 +160,7 @@ int curvewise_pcm_match(const curvewise_curve* P, const curvewise_curve* Q,
         }
         const curvewise_pcm_place result{sizeof result, match.maps_p ? 1 : 0, match.value,
                                          match.offset,  match.coverage,       match.tolerance};
-        curvewise::c::write_covered(result, *place, start);
+        curvewise::c::write_covered(result, place, start);
     });
 }
 

@@ -23,7 +23,7 @@ GroundDistance ground_distance(int metric, double p, double radius) {
 
 template <class Given>
 Given complete(const Given* given, const Given& defaults, const char* start) {
-    return given == nullptr ? defaults : covered(*given, defaults, start);
+    return given == nullptr ? defaults : covered(given, defaults, start);
 }
 
 template <class Given>

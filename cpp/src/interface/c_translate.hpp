@@ -56,11 +56,12 @@ inline constexpr std::size_t first_size = sizeof(Given);
 
 [[noreturn]] void refuse_size(std::size_t given, std::size_t known, const char* start);
 
-// The size that a struct of the caller says it has: that of this version, or of an older one.
+// The size that a struct of the caller says it has: that of this version, or of an older one. Its
+// address is one of bytes, because an older struct is no object of this version's type.
 template <class Given>
-std::size_t size_of(const Given& given, const char* start) {
+std::size_t size_of(const void* given, const char* start) {
     std::size_t size = 0;
-    std::memcpy(&size, &given, sizeof size);
+    std::memcpy(&size, given, sizeof size);
     if (size < first_size<Given> || size > sizeof(Given)) refuse_size(size, sizeof(Given), start);
     return size;
 }
@@ -68,17 +69,16 @@ std::size_t size_of(const Given& given, const char* start) {
 // A struct of this version whose members are those of the caller as far as the caller's reaches,
 // and `defaults` behind that.
 template <class Given>
-Given covered(const Given& given, Given defaults, const char* start) {
-    std::memcpy(&defaults, &given, size_of(given, start));
+Given covered(const void* given, Given defaults, const char* start) {
+    std::memcpy(&defaults, given, size_of<Given>(given, start));
     return defaults;
 }
 
 // Writes `result` to the caller's struct as far as that reaches. Its size stays.
 template <class Given>
-void write_covered(const Given& result, Given& to, const char* start) {
-    const std::size_t size = size_of(to, start);
-    std::memcpy(&to, &result, size);
-    to.size = size;
+void write_covered(Given result, void* to, const char* start) {
+    result.size = size_of<Given>(to, start);
+    std::memcpy(to, &result, result.size);
 }
 
 // A measure with its options, and the control that stands among them.

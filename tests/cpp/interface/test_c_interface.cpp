@@ -115,8 +115,7 @@ void batches_refuse_what_is_none() {
 void older_structs_have_the_defaults_of_newer_options() {
     constexpr const char* start = "GROWN_DEFAULTS";
     const auto read = [&](const void* given) {
-        return curvewise::c::covered(*static_cast<const Grown*>(given), {0, nullptr, 1.0, 2.0, 3},
-                                     start);
+        return curvewise::c::covered<Grown>(given, {0, nullptr, 1.0, 2.0, 3}, start);
     };
     const First first{sizeof first, nullptr, 7.0};
     const Grown of_first = read(&first);
@@ -140,7 +139,7 @@ void older_structs_have_the_defaults_of_newer_options() {
 void results_are_written_as_far_as_the_struct_reaches() {
     const Grown result{sizeof result, nullptr, 1.0, 2.0, 3};
     Grown to{sizeof(First), nullptr, untouched, untouched, 0};
-    curvewise::c::write_covered(result, to, "GROWN");
+    curvewise::c::write_covered(result, &to, "GROWN");
     CHECK_EQUAL(to.size, sizeof(First));
     CHECK_EQUAL(to.cutoff, 1.0);
     CHECK_EQUAL(to.penalty, untouched);

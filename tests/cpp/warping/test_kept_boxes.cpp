@@ -77,7 +77,7 @@ void boxes_enclose(std::ptrdiff_t dim, Random& random) {
         KeptBoxes::write(tree, numbers.data());
         CHECK_EQUAL(numbers[count], unwritten);
         const KeptBoxes kept{j, tree.size(), numbers.data()};
-        for (const std::size_t limit : {1, 0, 2}) {
+        for (const std::size_t limit : {1U, 0U, 2U}) {
             check_boxes(kept.read(limit, whole, dim, room),
                         level_with(tree, KeptBoxes::most_boxes[limit]), whole, dim);
         }
