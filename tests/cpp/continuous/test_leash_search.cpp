@@ -126,7 +126,7 @@ void peaks_and_pits() {
         std::vector<double> p, q{0.0};
         const std::ptrdiff_t events = 3 + random.index(8);
         for (std::ptrdiff_t k = 0; k < events; ++k) {
-            append_plain(p, 1 + random.index(500 / events), random);
+            append_plain(p, 1 + random.index(1500 / events), random);
             p.push_back(random.uniform(-3.0, 5.0));
             if (random.index(3) > 0) q.push_back(p.back() + random.uniform(-1.0, 1.0));
             if (random.index(2) > 0) q.push_back(random.uniform(-1.0, 1.0));
@@ -135,6 +135,24 @@ void peaks_and_pits() {
         q.push_back(0.0);
         const Curve P = along_a_line(p, random);
         check_value(P, along_a_line(divided(q, 1 + 9 * (round % 2)), random));
+    }
+}
+
+// P has one peak, Q a second one after it, which P's last points are far from: a walk with a small
+// radius comes to the last row, and not to the corner.
+void bottlenecks_of_the_last_row() {
+    Random random(26);
+    for (const std::ptrdiff_t plain : {1, 5, 40, 300}) {
+        for (const int parts : {1, 20}) {
+            const check::Note note(std::to_string(plain) + " rows, Q's edges in " +
+                                   std::to_string(parts));
+            std::vector<double> p{0.0};
+            append_plain(p, plain, random);
+            p.push_back(5.0);
+            append_plain(p, plain, random);
+            const std::vector<double> q = divided({0.0, 5.0, 0.0, 4.0, 0.0}, parts);
+            check_value(along_a_line(p, random), along_a_line(q, random));
+        }
     }
 }
 
@@ -234,6 +252,7 @@ void a_trail_is_thinned_out() {
 int main() {
     return check::run({{"corridors that part", corridors_that_part},
                        {"peaks and pits", peaks_and_pits},
+                       {"bottlenecks of the last row", bottlenecks_of_the_last_row},
                        {"zigzags", zigzags},
                        {"walks from both ends", walks_from_both_ends},
                        {"noise", noise},
