@@ -1,7 +1,7 @@
 // The measures of one pair: values, paths, tables, quadrilaterals, matches and residuals. The
 // function for values takes two curves in any form and a tuple of all options, because reading them
-// takes most of the time for short curves. The other functions take two arrays and a dict of
-// options.
+// takes most of the time for short curves. The other functions take two arrays, and a dict or a
+// tuple of options.
 #include <memory>
 #include <optional>
 #include <string>
@@ -100,11 +100,27 @@ py::tuple as_tuple(Interval&& interval) { return py::make_tuple(interval.low, in
 // Only plain functions of few types are bound. The compiler must compile pybind11's code for each
 // type, and it does so once for all functions of that type.
 
+// Options by name, or the values of all in the measure's order.
+template <class Options>
+Options read_either(const py::object& given, OwnDistances& own) {
+    if (!PyTuple_Check(given.ptr())) {
+        return read_options<Options>(given.cast<py::dict>(), OptionsOf::pair, &own);
+    }
+    const py::tuple values(given);
+    Options options;
+    OptionReader reader(values, OwnDistances::are_taken_by<Options> ? &own : nullptr);
+    visit_options(options, reader);
+    if (reader.taken() < PyTuple_GET_SIZE(values.ptr())) {
+        throw py::type_error(std::string(Options::measure) + " has fewer options than values");
+    }
+    return options;
+}
+
 // What compute(P, Q, options, control) finds, as a tuple.
 template <class Options, auto compute>
-py::tuple found(const CurveArray& P, const CurveArray& Q, const py::dict& options) {
+py::tuple found(const CurveArray& P, const CurveArray& Q, const py::object& options) {
     OwnDistances own(P, Q);
-    return as_tuple(computed(P, Q, read_options<Options>(options, OptionsOf::pair, &own), compute));
+    return as_tuple(computed(P, Q, read_either<Options>(options, own), compute));
 }
 
 // The number that compute(P, Q, options, control) finds.
@@ -134,9 +150,9 @@ py::array_t<double> allocate_residuals(const CurveArray& P, const CurveArray& /*
 
 // An array as allocate(P, Q) returns it, filled by fill(P, Q, data, options, control).
 template <class Options, auto allocate, auto fill>
-py::array_t<double> filled(const CurveArray& P, const CurveArray& Q, const py::dict& given) {
+py::array_t<double> filled(const CurveArray& P, const CurveArray& Q, const py::object& given) {
     OwnDistances own(P, Q);
-    const auto options = read_options<Options>(given, OptionsOf::pair, &own);
+    const auto options = read_either<Options>(given, own);
     py::array_t<double> out = allocate(P, Q);
     double* const data = out.mutable_data();
     computed(P, Q, options,

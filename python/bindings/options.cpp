@@ -209,6 +209,9 @@ void OptionReader::read_own(GroundDistance& ground, const py::object& metric) {
 py::object OptionReader::take(const char* name) {
     PyObject* value = nullptr;
     if (is_tuple_) {
+        if (taken_ == PyTuple_GET_SIZE(given_.ptr())) {
+            throw py::type_error(std::string("there is no value for ") + name);
+        }
         value = PyTuple_GET_ITEM(given_.ptr(), taken_);
     } else if (taken_ < PyDict_GET_SIZE(given_.ptr())) {
         value = find(name);

@@ -108,18 +108,12 @@ _DEFAULTS: dict[str, Any] = {
 
 
 class Default:
-    """The value of each option that is not given: the compiled library's, or Python's own."""
+    """Defaults of options of several functions: the compiled library's, or Python's own."""
 
     metric: Final[Metric] = _DEFAULTS["metric"]
     p: Final[Order] = _DEFAULTS["p"]
     radius: Final[Radius] = _DEFAULTS["radius"]
-    step_pattern: Final[StepPatternName] = _DEFAULTS["step_pattern"]
-    penalty: Final[SupportsFloat] = _DEFAULTS["penalty"]
     window: Final[Window] = _DEFAULTS["window"]
-    open_begin: Final[bool] = _DEFAULTS["open_begin"]
-    open_end: Final[bool] = _DEFAULTS["open_end"]
-    relax: Final[Relax] = _DEFAULTS["relax"]
-    normalize: Final[bool] = _DEFAULTS["normalize"]
     spacing: Final[Spacing] = _DEFAULTS["spacing"]
     crossing: Final[Crossing] = _DEFAULTS["crossing"]
     squared: Final[bool] = _DEFAULTS["squared"]
@@ -142,10 +136,19 @@ def check_choice(option: str, value: object, choices: Collection[str]) -> None:
         )
 
 
-def check_closed(options: Mapping[str, object]) -> None:
-    """Refuse options that closed curves do not have, unless they are the defaults."""
-    for option, value in options.items():
-        default = getattr(Default, option)
+_OF_CLOSED = {"P", "Q", "metric", "p", "radius", "workers", "prune", "cutoff", "missing", "closed"}
+
+
+def check_closed(given: Mapping[str, object]) -> None:
+    """Refuse options that closed curves do not have, unless they are the defaults.
+
+    Parameters
+    ----------
+    given : mapping of str to object
+        All arguments of a measure's function by name.
+    """
+    for option in [name for name in given if name not in _OF_CLOSED]:
+        value, default = given[option], _DEFAULTS[option]
         if value is not default and value != default:
             raise ValueError(f"closed=True has no {option}; leave out {option}={value!r}")
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._core import is_symmetric
-from .._docstrings import filled
 from .._option_names import with_values
 from .._options import Default, Missing, Preset, check_choice
 from ..curves.column_roles import is_time
@@ -190,12 +189,7 @@ class Comparison(Result):
         return [Table(rows, header), f"preset {self.preset}", *self.notes]
 
 
-@filled(
-    in_plane=", ".join(name for name, info in MEASURES.items() if info.by_default),
-    any_dimension=" and ".join(
-        name for name, info in MEASURES.items() if info.by_default and not info.planar
-    ),
-)
+# Shared text: measures(all by_default anywhere), missing
 def compare(
     P: CurveLike,
     Q: CurveLike,
@@ -220,11 +214,14 @@ def compare(
         with spacing="x"; frechet, and dtw with step_pattern="symmetric2", on scaled curves;
         curve_length raw with scale="mean"). "raw": every default, on the raw curves.
     measures : sequence of str, optional
-        A subset of {measures}. The default is {in_plane} in the plane, {any_dimension} in other
+        Some of "area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous", "hausdorff",
+        "hausdorff_continuous", "erp", "edr", "lcss", "msm", "twe", "wdtw". The default is "area",
+        "pcm", "frechet", "dtw", "curve_length" in the plane, and "frechet", "dtw" in other
         dimensions.
     options : mapping of str to mapping, optional
         Options of measures that override the preset's: {"dtw": {"window": 0.1}}.
-    {missing}
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------

@@ -15,7 +15,6 @@ from typing import Any, SupportsFloat, SupportsIndex
 import numpy as np
 
 from .._core import build_info, check_batch, is_symmetric
-from .._docstrings import filled
 from ..curves.inputs import Array, as_curve_list, as_curve_lists
 from ..curves.layouts import Layout
 from ..curves.reference_systems import check_reference_systems
@@ -39,7 +38,7 @@ __all__ = ["cdist", "pdist"]
 Store = str | os.PathLike[str]
 
 
-@filled()
+# Shared text: layout
 def cdist(
     XA: Curves,
     XB: Curves | None = None,
@@ -68,7 +67,9 @@ def cdist(
         SIGKILL, repeat it: it computes only the missing blocks. Stored blocks are checked first. A
         warning names the damaged ones, which are computed again. Workers of a cluster must see the
         same folder.
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Returns
     -------
@@ -134,7 +135,7 @@ def cdist(
     return begin_store(store, lazy.shape, (size, size), contents).filled(lazy)
 
 
-@filled()
+# Shared text: layout
 def pdist(
     X: Curves,
     measure: Measure = "dtw",
@@ -155,7 +156,9 @@ def pdist(
         As for :func:`cdist`: a block has as many distances as one of the matrix.
     store : path, optional
         As for :func:`cdist`; it takes half the disk.
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Returns
     -------

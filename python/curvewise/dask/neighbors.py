@@ -12,7 +12,6 @@ import numpy as np
 import numpy.typing as npt
 
 from .._core import check_batch
-from .._docstrings import filled
 from ..curves.inputs import Array, as_curve_lists
 from ..curves.layouts import Layout
 from ..curves.reference_systems import check_reference_systems
@@ -25,7 +24,7 @@ from .pieces import Piece, block_size, dask_array, lazy_array, pieces, refuse_lo
 __all__ = ["kneighbors"]
 
 
-@filled()
+# Shared text: layout
 def kneighbors(
     X: Curves,
     curves: Curves,
@@ -50,7 +49,9 @@ def kneighbors(
         As for :class:`curvewise.Index`.
     block : int, optional
         As for :func:`cdist`: an index holds this many curves.
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Returns
     -------

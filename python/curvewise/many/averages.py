@@ -16,7 +16,6 @@ import numpy.typing as npt
 
 from .._core import check_batch, is_symmetric
 from .._core import dtw_mean as compiled_dtw_mean
-from .._docstrings import filled
 from .._extras import extra
 from .._options import Default, Window, real_number, whole_number
 from .._progress import Report, reporting
@@ -44,7 +43,7 @@ _CURVES_SHOWN = 50
 _BLOCK = 1 << 20
 
 
-@filled()
+# Shared text: workers, layout
 def dtw_mean(
     curves: Curves | LabelledCurves,
     *,
@@ -79,10 +78,13 @@ def dtw_mean(
         Maximum number of rounds.
     tolerance : float >= 0
         The iteration ends if a round lowers the sum by no more than this fraction.
-    {workers}
+    workers : int, default 1
+        Number of threads: at least 1, or -1 for one per core. The result does not change.
     progress : bool or callable
         As for :func:`curvewise.cdist`; counts cells, and ends early where the mean converges.
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Returns
     -------
@@ -129,7 +131,7 @@ def dtw_mean(
     return _mean_of(given, mean, costs, bool(converged))
 
 
-@filled()
+# Shared text: workers, layout
 def soft_dtw_mean(
     curves: Curves | LabelledCurves,
     *,
@@ -166,8 +168,11 @@ def soft_dtw_mean(
         Maximum number of rounds.
     tolerance : float >= 0
         The iteration ends if a round lowers the sum by no more than this fraction.
-    {workers}
-    {layout}
+    workers : int, default 1
+        Number of threads: at least 1, or -1 for one per core. The result does not change.
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Returns
     -------
@@ -318,7 +323,7 @@ def medoid(
     layout: Layout | None = None,
     **options: Any,
 ) -> Any: ...
-@filled()
+# Shared text: measure(all), workers, layout
 def medoid(
     curves: Curves | LabelledCurves,
     measure: MeasureName = "dtw",
@@ -334,12 +339,17 @@ def medoid(
     ----------
     curves : array_like, shape (k, n, d), or a sequence of curves
         The curves of a sequence may differ in length, not in d.
-    measure : {measures}
-        A measure by its name. If it is not symmetric, the other curves are P and the medoid is Q.
-    {workers}
+    measure : str
+        The name of a measure: "area", "pcm", "frechet", "dtw", "curve_length",
+        "frechet_continuous", "hausdorff", "hausdorff_continuous", "erp", "edr", "lcss", "msm",
+        "twe", "wdtw". If it is not symmetric, the other curves are P and the medoid is Q.
+    workers : int, default 1
+        Number of threads: at least 1, or -1 for one per core. The result does not change.
     progress : bool or callable
         As for :func:`curvewise.cdist`; counts pairs.
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
     **options
         Options of the measure's own function.
 

@@ -13,7 +13,6 @@ import numpy as np
 
 from .._core import Index as CompiledIndex
 from .._core import matrix_profile as find_profile
-from .._docstrings import filled
 from .._options import Default, whole_number
 from ..curves.checks import check_finite
 from ..curves.inputs import Array, CurveLike, as_curve, in_columns
@@ -23,7 +22,7 @@ from ..measures.results import MatrixProfile
 __all__ = ["matrix_profile"]
 
 
-@filled()
+# Shared text: workers
 def matrix_profile(
     record: CurveLike,
     length: SupportsIndex,
@@ -51,7 +50,8 @@ def matrix_profile(
     exclusion : int >= 0, optional
         Windows whose starts differ by at most this number are not compared. By default
         ``length // 2``.
-    {workers}
+    workers : int, default 1
+        Number of threads: at least 1, or -1 for one per core. The result does not change.
 
     Returns
     -------

@@ -20,7 +20,6 @@ import numpy.typing as npt
 
 from .._core import Index as CompiledIndex
 from .._core import IndexFile
-from .._docstrings import filled
 from .._extras import extra
 from .._options import Default, check_choice, whole_number
 from .._progress import Report, reporting
@@ -44,23 +43,27 @@ Places = npt.NDArray[np.int64]
 GraphMode = Literal["connectivity", "distance"]
 
 
-@filled()
+# Shared text: measure(all), layout
 class Index:
     """Index of many curves for exact nearest-neighbour queries.
 
     The answers are bitwise identical to :func:`curvewise.cdist` and a stable sort, for any number
     of threads: of equal distances the curve with the smaller index comes first. Methods have the
-    names, shapes and conventions of ``sklearn.neighbors.NearestNeighbors``.
+    names, shapes and conventions of ``sklearn.neighbors.NearestNeighbors``. Later curves have the
+    layout of the first ones.
 
     Parameters
     ----------
     curves : array_like, shape (k, n, d), or a sequence of curves
         The curves of a sequence may differ in length, not in d. They are copied. They may have
         labels, as for :func:`curvewise.cdist`.
-    measure : {measures}
-        A measure by its name. A query curve is P, a curve of the index is Q.
-    {layout}
-        Curves that are added or queried later have the same layout.
+    measure : str
+        The name of a measure: "area", "pcm", "frechet", "dtw", "curve_length",
+        "frechet_continuous", "hausdorff", "hausdorff_continuous", "erp", "edr", "lcss", "msm",
+        "twe", "wdtw". A query curve is P, a curve of the index is Q.
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
     **options
         Options of the measure's own function, except ``workers`` and ``cutoff``.
 
@@ -312,7 +315,7 @@ class Index:
             self._index.remove(self._labels.indices_of(given))
             self._labels.remove(given)
 
-    @filled()
+    # Shared text: workers
     def kneighbors(
         self,
         X: Curves | LabelledCurves | None = None,
@@ -333,7 +336,8 @@ class Index:
             Number of neighbours of each query, from 1 to the number of curves.
         return_distance : bool
             Whether to return the distances in addition to the indices.
-        {workers}
+        workers : int, default 1
+            Number of threads: at least 1, or -1 for one per core. The result does not change.
         progress : bool or callable
             True shows a bar (tqdm). A callable is called in this thread with (done, total), as
             :func:`curvewise.cdist` calls it: every pair counts, computed or not.
@@ -370,7 +374,6 @@ class Index:
         found = labelled_matrix(self._labels.at(indices), names, None)
         return (labelled_matrix(distances, names, None), found) if return_distance else found
 
-    @filled()
     def radius_neighbors(
         self,
         X: Curves | LabelledCurves | None = None,
@@ -426,7 +429,6 @@ class Index:
             return found
         return labelled_column(_divided(distances, begins), names), found
 
-    @filled()
     def kneighbors_graph(
         self,
         X: Curves | LabelledCurves | None = None,
@@ -475,7 +477,6 @@ class Index:
         begins = np.arange(len(indices) + 1) * indices.shape[1]
         return self._graph(mode, distances.ravel(), indices.ravel(), begins, rows)
 
-    @filled()
     def radius_neighbors_graph(
         self,
         X: Curves | LabelledCurves | None = None,

@@ -19,7 +19,6 @@ import numpy as np
 from .._core import cdist as compiled_cdist
 from .._core import check_batch, is_symmetric
 from .._core import pdist as compiled_pdist
-from .._docstrings import filled, listed
 from .._options import Default, Metric, Missing, WarpingName, check_choice, real_number
 from .._progress import Report, reporting
 from ..curves.inputs import Array, CurveLike, as_curve_list, as_curve_lists, copy_of
@@ -109,7 +108,7 @@ def cdist(
     missing: Missing = Default.missing,
     **options: Any,
 ) -> Any: ...
-@filled()
+# Shared text: measure(all), workers, layout, missing
 def cdist(
     XA: Curves | LabelledCurves,
     XB: Curves | LabelledCurves | None = None,
@@ -132,14 +131,17 @@ def cdist(
         Without XB, XA is compared with itself. Each pair of a symmetric measure is then computed
         once, with the earlier curve as P, unless the metric is user-defined. A dict of curves, a
         groupby, a Series or a GeoDataFrame of lines also has labels.
-    measure : {measures} or callable
-        A measure by its name (see :func:`available_measures`), or a function of two curves that
-        returns a float. A callable runs in this thread, holding the GIL, pair by pair: `workers` is
-        ignored, and all pairs are computed. `workers` is also ignored for dtw and frechet with
-        ``closed=True`` or a callable `metric`. A matrix as `metric` raises an error.
+    measure : str or callable
+        The name of a measure: "area", "pcm", "frechet", "dtw", "curve_length",
+        "frechet_continuous", "hausdorff", "hausdorff_continuous", "erp", "edr", "lcss", "msm",
+        "twe", "wdtw". Or a function of two curves that returns a float. A callable runs in this
+        thread, holding the GIL, pair by pair: `workers` is ignored, and all pairs are computed.
+        `workers` is also ignored for dtw and frechet with ``closed=True`` or a callable `metric`. A
+        matrix as `metric` raises an error.
     out : ndarray of float64, shape (k, l), C-contiguous, optional
         Array for the result.
-    {workers}
+    workers : int, default 1
+        Number of threads: at least 1, or -1 for one per core. The result does not change.
     cutoff : float >= 0, optional
         Values above it become inf; the computation of their pairs may stop early. It may be
         negative for a callable, and for a step pattern that has a negative weight.
@@ -147,8 +149,11 @@ def cdist(
         True shows a bar (tqdm). A callable is called in this thread with (done, total), about
         twenty times a second. The unit for dtw and frechet is a cell of the tables, n m for a pair.
         The unit for other measures and callables is a point, n + m for a pair.
-    {layout}
-    {missing}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
     **options
         Options of the measure's own function, or of the callable.
 
@@ -246,7 +251,7 @@ def pdist(
     missing: Missing = Default.missing,
     **options: Any,
 ) -> Any: ...
-@filled(symmetric=listed(name for name, info in MEASURES.items() if info.symmetric))
+# Shared text: measure(symmetric)
 def pdist(
     X: Curves | LabelledCurves,
     measure: Measure = "dtw",
@@ -265,10 +270,12 @@ def pdist(
     ----------
     X : array_like, shape (k, n, d), or a sequence of curves
         As for :func:`cdist`.
-    measure : {symmetric} or callable
-        A symmetric measure: dtw without open ends, area without spacing="arc_length" or "matched".
-        A callable, and a callable `metric`, is only called with the earlier curve as P; its
-        symmetry is not checked.
+    measure : str or callable
+        The name of a symmetric measure: "area", "frechet", "dtw", "frechet_continuous",
+        "hausdorff", "hausdorff_continuous", "erp", "edr", "lcss", "msm", "twe", "wdtw". They are
+        symmetric: dtw without open ends, area without spacing="arc_length" or "matched". A
+        callable, and a callable `metric`, is only called with the earlier curve as P; its symmetry
+        is not checked.
     out : ndarray of float64, shape (k (k-1) / 2,), C-contiguous, optional
         Array for the result.
     workers, cutoff, progress, layout, missing, **options

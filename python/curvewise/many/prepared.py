@@ -10,7 +10,6 @@ from typing import Any, SupportsIndex, overload
 import numpy as np
 
 from .._core import Prepared as CompiledPrepared
-from .._docstrings import filled
 from .._options import Default
 from ..curves.foreign_curves import is_curve_of_another_package
 from ..curves.inputs import (
@@ -31,7 +30,7 @@ from .pairwise import _check_names
 __all__ = ["Prepared"]
 
 
-@filled()
+# Shared text: measure(all)
 class Prepared:
     """A curve P prepared for comparison with many curves.
 
@@ -43,8 +42,10 @@ class Prepared:
     ----------
     P : array_like, shape (n, d)
         The reference, e.g. the experiment.
-    measure : {measures}
-        A measure by its name.
+    measure : str
+        The name of a measure: "area", "pcm", "frechet", "dtw", "curve_length",
+        "frechet_continuous", "hausdorff", "hausdorff_continuous", "erp", "edr", "lcss", "msm",
+        "twe", "wdtw".
     **options
         Options of the measure's own function, except ``workers``.
 

@@ -14,7 +14,6 @@ from typing import Any, SupportsFloat, SupportsIndex, get_args
 import numpy as np
 
 from .._core import dtw_subsequences, frechet_subsequences
-from .._docstrings import filled, listed
 from .._options import (
     Default,
     Metric,
@@ -40,7 +39,7 @@ __all__ = ["subsequence"]
 _CUTOFF_ADVICE = "give a number >= 0, or None"
 
 
-@filled(warpings=listed(get_args(WarpingName)))
+# Shared text: measure(warpings), metric, workers, invalid
 def subsequence(
     P: CurveLike,
     Q: CurveLike,
@@ -69,9 +68,18 @@ def subsequence(
         The query, e.g. a cycle, and the curve to search, e.g. a long record; of any d.
     k : int >= 1
         Maximum number of answers.
-    measure : {warpings}
-        The measure; dtw uses the step pattern "symmetric1", and a window only with `normalize`.
-    {metric}
+    measure : str
+        The measure: "dtw", "frechet". dtw uses the step pattern "symmetric1", and a window only
+        with `normalize`.
+    metric : str
+        The ground distance between points: "euclidean", "sqeuclidean", "cityblock", "chebyshev",
+        "minkowski", "haversine". "haversine" is the distance along the great circle, for points
+        (longitude, latitude) in degrees.
+    p : float, 1 <= p <= inf, optional
+        The order of "minkowski"; 2 if not given.
+    radius : float > 0, optional
+        The radius of the sphere of "haversine", in the unit of the distances. The default is
+        6371008.8, the mean radius of the Earth in metres.
     cutoff : float >= 0, optional
         Upper limit of the answers' distances.
     path : bool
@@ -82,7 +90,8 @@ def subsequence(
     window : int >= 0, optional
         With `normalize` and dtw, the half-width of the Sakoe-Chiba band; 0 compares point by point.
         Unlimited by default.
-    {workers}
+    workers : int, default 1
+        Number of threads: at least 1, or -1 for one per core. The result does not change.
 
     Returns
     -------
@@ -91,7 +100,11 @@ def subsequence(
 
     Raises
     ------
-    {invalid}
+    ValueError
+        If a curve is not finite or empty, the curves differ in d, or an option is unknown or out of
+        range.
+    TypeError
+        If a curve does not hold real numbers.
 
     Notes
     -----

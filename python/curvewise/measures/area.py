@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from .._core import area as compiled_area
 from .._core import area_quads as compiled_area_quads
-from .._docstrings import filled
 from .._options import Crossing, Default, Missing, Spacing
 from ..curves.inputs import CurveLike, as_curves
 from ..curves.missing import skip_in_pair
@@ -16,7 +15,7 @@ from .results import AreaQuads
 __all__ = ["area", "area_quads"]
 
 
-@filled()
+# Shared text: missing
 def area(
     P: CurveLike,
     Q: CurveLike,
@@ -63,7 +62,8 @@ def area(
         Whether to sum the squares of the areas instead (the paper's section 4, the analogue of
         sum-of-squares); with "matched", those of the sections. With "function" the value is the
         integral of (f - g)².
-    {missing}
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------

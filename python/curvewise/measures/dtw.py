@@ -11,7 +11,6 @@ from .._core import dtw as compiled_dtw
 from .._core import dtw_info as compiled_dtw_info
 from .._core import dtw_path as compiled_dtw_path
 from .._core import dtw_table as compiled_dtw_table
-from .._docstrings import filled
 from .._options import Default, GroundDistance, Missing, Order, Radius, Relax, Window, check_closed
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.missing import skip_in_pair
@@ -23,7 +22,7 @@ from .step_pattern import Steps
 __all__ = ["dtw", "dtw_info", "dtw_path", "dtw_table"]
 
 
-@filled()
+# Shared text: curves, ground, workers, prune, cutoff, missing, closed, closed_notes, own_distances
 def dtw(
     P: CurveLike,
     Q: CurveLike,
@@ -31,13 +30,13 @@ def dtw(
     metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
-    step_pattern: Steps = Default.step_pattern,
-    penalty: SupportsFloat = Default.penalty,
+    step_pattern: Steps = "symmetric1",
+    penalty: SupportsFloat = 0.0,
     window: Window = Default.window,
-    open_begin: bool = Default.open_begin,
-    open_end: bool = Default.open_end,
-    relax: Relax = Default.relax,
-    normalize: bool = Default.normalize,
+    open_begin: bool = False,
+    open_end: bool = False,
+    relax: Relax = None,
+    normalize: bool = False,
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
     cutoff: SupportsFloat | None = Default.cutoff,
@@ -48,8 +47,20 @@ def dtw(
 
     Parameters
     ----------
-    {curves}
-    {ground}
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves, of any d.
+    metric : str, array_like of shape (n, m), or callable, default "euclidean"
+        The ground distance between points: "euclidean", "sqeuclidean", "cityblock", "chebyshev",
+        "minkowski", "haversine". "haversine" is the distance along the great circle, for points
+        (longitude, latitude) in degrees. A user-defined distance is an array of the distances of
+        all points of P and Q, or a function. The function receives some points of each curve, of
+        shapes (p, d) and (q, d), and returns their distances, of shape (p, q). Distances are at
+        least 0; inf forbids a pair.
+    p : float, 1 <= p <= inf, optional
+        The order of "minkowski"; 2 if not given.
+    radius : float > 0, optional
+        The radius of the sphere of "haversine", in the unit of the distances. The default is
+        6371008.8, the mean radius of the Earth in metres.
     step_pattern : str or StepPattern, default "symmetric1"
         "symmetric1" counts each step once. "symmetric2" counts a diagonal step twice; it is the
         default of R's dtw and of ``preset="paper"``. The others of R's dtw are "asymmetric",
@@ -78,11 +89,16 @@ def dtw(
         m with "symmetric2", else that of the pattern (``StepPattern.normalization``). The result is
         a distance per step, which does not grow with the number of points. Not allowed with
         "symmetric1" and other patterns whose paths differ in length, as in R's dtw and dtw-python.
-    {workers}
-    {prune}
-    {cutoff}
-    {missing}
-    {closed}
+    workers : int, default 1
+        Number of threads: at least 1, or -1 for one per core. The result does not change.
+    prune : bool, default True
+        Whether to skip table cells that cannot affect the result. The result does not change.
+    cutoff : float >= 0, optional
+        Upper limit: return inf for distances above it, which takes less time.
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
+    closed : bool, default False
+        Whether both curves are closed, so that their first points do not matter. See Notes.
 
     Returns
     -------
@@ -117,12 +133,20 @@ def dtw(
     the least value over the steps of the pattern. A step's value is c at its beginning, plus the
     penalty, plus the weighted distances of the cells that it visits, added in this order.
 
-    {closed_notes} It is found by divide and conquer over the beginning of Q (Maes, "On a cyclic
+    ``closed=True``: the first point of a closed curve is arbitrary, and a last point that equals it
+    only closes the curve. A path goes once around both curves by steps of one point of either or of
+    both, and returns to its first pair, which counts once. The value is the smallest over all first
+    points of P and of Q.
+
+    The value is found by divide and conquer over the beginning of Q (Maes, "On a cyclic
     string-to-string correction problem", 1990). Time O(n m log m), memory n m bytes. The value is
     exact except for the order in which distances are added. Only the metric, missing and cutoff
     apply.
 
-    {own_distances}
+    A user-defined metric is computed in one thread and without pruning. A callable is called once
+    for every 256 rows of the table (fewer if these are more than 2^21 pairs), so that memory stays
+    O(n + m), and up to three times for a path. It need not be symmetric. Its exceptions are not
+    caught.
 
     This table gives the options for the DTW of other packages:
 
@@ -157,6 +181,11 @@ def dtw(
     >>> curvewise.dtw([1, 2, 4], [1, 4], metric=[[0, 2], [1, 1], [2, 0]])
     1.0
     """
+    if missing != "refuse":
+        P, Q = skip_in_pair(P, Q, missing)
+    if closed:
+        check_closed(locals())
+        return closed_value("dtw", P, Q, {"metric": metric, "p": p, "radius": radius}, cutoff)
     options = (
         metric,
         p,
@@ -172,17 +201,10 @@ def dtw(
         prune,
         cutoff,
     )
-    if missing != "refuse":
-        P, Q = skip_in_pair(P, Q, missing)
-    if closed:
-        check_closed(
-            _steps_of(step_pattern, penalty, window, open_begin, open_end, relax, normalize)
-        )
-        ground = {"metric": metric, "p": p, "radius": radius}
-        return closed_value("dtw", P, Q, ground, cutoff)
     return compiled_dtw(P, Q, options)
 
 
+# Signature: dtw without normalize, cutoff, missing, closed
 def dtw_info(
     P: CurveLike,
     Q: CurveLike,
@@ -190,12 +212,12 @@ def dtw_info(
     metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
-    step_pattern: Steps = Default.step_pattern,
-    penalty: SupportsFloat = Default.penalty,
+    step_pattern: Steps = "symmetric1",
+    penalty: SupportsFloat = 0.0,
     window: Window = Default.window,
-    open_begin: bool = Default.open_begin,
-    open_end: bool = Default.open_end,
-    relax: Relax = Default.relax,
+    open_begin: bool = False,
+    open_end: bool = False,
+    relax: Relax = None,
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
 ) -> WarpingInfo:
@@ -231,12 +253,26 @@ def dtw_info(
     (1.0, 12, 1.0)
     """
     P, Q = as_curves(P, Q)
-    steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end, relax)
-    options = steps | {"workers": workers, "prune": prune}
+    options = (
+        metric,
+        p,
+        radius,
+        step_pattern,
+        penalty,
+        window,
+        open_begin,
+        open_end,
+        relax,
+        False,
+        workers,
+        prune,
+        Default.cutoff,
+    )
     return WarpingInfo(*compiled_dtw_info(P, Q, options))
 
 
-@filled()
+# Shared text: closed
+# Signature: dtw without normalize, cutoff, missing
 def dtw_path(
     P: CurveLike,
     Q: CurveLike,
@@ -244,12 +280,12 @@ def dtw_path(
     metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
-    step_pattern: Steps = Default.step_pattern,
-    penalty: SupportsFloat = Default.penalty,
+    step_pattern: Steps = "symmetric1",
+    penalty: SupportsFloat = 0.0,
     window: Window = Default.window,
-    open_begin: bool = Default.open_begin,
-    open_end: bool = Default.open_end,
-    relax: Relax = Default.relax,
+    open_begin: bool = False,
+    open_end: bool = False,
+    relax: Relax = None,
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
     closed: bool = Default.closed,
@@ -262,7 +298,8 @@ def dtw_path(
         As for :func:`dtw`.
     metric, p, radius, step_pattern, penalty, window, open_begin, open_end, relax, workers, prune
         As for :func:`dtw`.
-    {closed}
+    closed : bool, default False
+        Whether both curves are closed, so that their first points do not matter. See Notes.
 
     Returns
     -------
@@ -290,15 +327,29 @@ def dtw_path(
     >>> curvewise.dtw_path([0, 1, 2, 3], [0, 2, 3]).path.tolist()
     [[0, 0], [1, 0], [2, 1], [3, 2]]
     """
-    A, B = as_curves(P, Q)
-    steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end, relax)
     if closed:
-        check_closed(_steps_of(step_pattern, penalty, window, open_begin, open_end, relax))
+        check_closed(locals())
         return closed_alignment("dtw", P, Q, {"metric": metric, "p": p, "radius": radius})
-    options = steps | {"workers": workers, "prune": prune}
+    A, B = as_curves(P, Q)
+    options = (
+        metric,
+        p,
+        radius,
+        step_pattern,
+        penalty,
+        window,
+        open_begin,
+        open_end,
+        relax,
+        False,
+        workers,
+        prune,
+        Default.cutoff,
+    )
     return Alignment(*compiled_dtw_path(A, B, options), (copied(P, A), copied(Q, B)))
 
 
+# Signature: dtw without normalize, workers, prune, cutoff, missing, closed
 def dtw_table(
     P: CurveLike,
     Q: CurveLike,
@@ -306,12 +357,12 @@ def dtw_table(
     metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
-    step_pattern: Steps = Default.step_pattern,
-    penalty: SupportsFloat = Default.penalty,
+    step_pattern: Steps = "symmetric1",
+    penalty: SupportsFloat = 0.0,
     window: Window = Default.window,
-    open_begin: bool = Default.open_begin,
-    open_end: bool = Default.open_end,
-    relax: Relax = Default.relax,
+    open_begin: bool = False,
+    open_end: bool = False,
+    relax: Relax = None,
 ) -> Array:
     """Return the cumulative table of dynamic time warping.
 
@@ -345,33 +396,19 @@ def dtw_table(
     [[0.0, 2.0, 5.0], [1.0, 1.0, 3.0]]
     """
     P, Q = as_curves(P, Q)
-    steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end, relax)
-    return compiled_dtw_table(P, Q, steps)
-
-
-def _steps_of(
-    step_pattern: object,
-    penalty: object,
-    window: object,
-    open_begin: object,
-    open_end: object,
-    relax: object,
-    normalize: object = Default.normalize,
-) -> dict[str, object]:
-    """Return by name what closed curves do not have."""
-    return locals()
-
-
-def _options(
-    metric: object,
-    p: object,
-    radius: object,
-    step_pattern: object,
-    penalty: object,
-    window: object,
-    open_begin: object,
-    open_end: object,
-    relax: object,
-) -> dict[str, object]:
-    """Return by name what a path and a table depend on."""
-    return locals()
+    options = (
+        metric,
+        p,
+        radius,
+        step_pattern,
+        penalty,
+        window,
+        open_begin,
+        open_end,
+        relax,
+        False,
+        Default.workers,
+        Default.prune,
+        Default.cutoff,
+    )
+    return compiled_dtw_table(P, Q, options)

@@ -16,7 +16,6 @@ from .._core import lcss as compiled_lcss
 from .._core import msm as compiled_msm
 from .._core import twe as compiled_twe
 from .._core import wdtw as compiled_wdtw
-from .._docstrings import filled, listed
 from .._options import Default, Metric, Missing, Order, Radius, Window, check_choice
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.missing import skip_in_pair
@@ -27,20 +26,9 @@ __all__ = ["edit_path", "edit_table", "edr", "erp", "lcss", "msm", "twe", "wdtw"
 
 EditDistance: TypeAlias = Literal["erp", "edr", "lcss", "msm", "twe", "wdtw"]
 
-_SHARED = {
-    "window": """\
-window : int >= 0 or 0 < float < 1, optional
-    Sakoe-Chiba band, as for :func:`dtw`.""",
-    "raises": """\
-ValueError
-    A curve is not finite or empty; the curves differ in d; an option is unknown or out of
-    range; no path fits the window (window = 0 and n != m).
-TypeError
-    A curve does not hold real numbers.""",
-}
 
-
-@filled(**_SHARED)
+# Shared text: curves, metric, window, cutoff, missing, invalid_window
+# Signature: hausdorff(metric, p, radius), dtw(window, cutoff, missing)
 def erp(
     P: CurveLike,
     Q: CurveLike,
@@ -57,13 +45,25 @@ def erp(
 
     Parameters
     ----------
-    {curves}
-    {metric}
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves, of any d.
+    metric : str
+        The ground distance between points: "euclidean", "sqeuclidean", "cityblock", "chebyshev",
+        "minkowski", "haversine". "haversine" is the distance along the great circle, for points
+        (longitude, latitude) in degrees.
+    p : float, 1 <= p <= inf, optional
+        The order of "minkowski"; 2 if not given.
+    radius : float > 0, optional
+        The radius of the sphere of "haversine", in the unit of the distances. The default is
+        6371008.8, the mean radius of the Earth in metres.
     gap : float
         The coordinates of the reference point: an unmatched point costs its distance from it.
-    {window}
-    {cutoff}
-    {missing}
+    window : int >= 0 or 0 < float < 1, optional
+        Sakoe-Chiba band, as for :func:`dtw`.
+    cutoff : float >= 0, optional
+        Upper limit: return inf for distances above it, which takes less time.
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------
@@ -72,7 +72,11 @@ def erp(
 
     Raises
     ------
-    {raises}
+    ValueError
+        If a curve is not finite or empty, the curves differ in d, an option is unknown or out of
+        range, or no path fits the window (window = 0 and n != m).
+    TypeError
+        If a curve does not hold real numbers.
 
     Notes
     -----
@@ -93,7 +97,8 @@ def erp(
     return compiled_erp(P, Q, (metric, p, radius, gap, window, cutoff))
 
 
-@filled(**_SHARED)
+# Shared text: curves, metric, window, cutoff, missing, invalid_window
+# Signature: hausdorff(metric, p, radius), dtw(window, cutoff, missing)
 def edr(
     P: CurveLike,
     Q: CurveLike,
@@ -110,14 +115,26 @@ def edr(
 
     Parameters
     ----------
-    {curves}
-    {metric}
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves, of any d.
+    metric : str
+        The ground distance between points: "euclidean", "sqeuclidean", "cityblock", "chebyshev",
+        "minkowski", "haversine". "haversine" is the distance along the great circle, for points
+        (longitude, latitude) in degrees.
+    p : float, 1 <= p <= inf, optional
+        The order of "minkowski"; 2 if not given.
+    radius : float > 0, optional
+        The radius of the sphere of "haversine", in the unit of the distances. The default is
+        6371008.8, the mean radius of the Earth in metres.
     epsilon : float >= 0, optional
         Points nearer than this are equal. The default is a quarter of the larger standard deviation
         of all coordinates of P and of Q.
-    {window}
-    {cutoff}
-    {missing}
+    window : int >= 0 or 0 < float < 1, optional
+        Sakoe-Chiba band, as for :func:`dtw`.
+    cutoff : float >= 0, optional
+        Upper limit: return inf for distances above it, which takes less time.
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------
@@ -126,7 +143,11 @@ def edr(
 
     Raises
     ------
-    {raises}
+    ValueError
+        If a curve is not finite or empty, the curves differ in d, an option is unknown or out of
+        range, or no path fits the window (window = 0 and n != m).
+    TypeError
+        If a curve does not hold real numbers.
 
     Notes
     -----
@@ -146,7 +167,8 @@ def edr(
     return compiled_edr(P, Q, (metric, p, radius, epsilon, window, cutoff))
 
 
-@filled(**_SHARED)
+# Shared text: curves, metric, window, cutoff, missing, invalid_window
+# Signature: hausdorff(metric, p, radius), dtw(window, cutoff, missing)
 def lcss(
     P: CurveLike,
     Q: CurveLike,
@@ -165,13 +187,25 @@ def lcss(
 
     Parameters
     ----------
-    {curves}
-    {metric}
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves, of any d.
+    metric : str
+        The ground distance between points: "euclidean", "sqeuclidean", "cityblock", "chebyshev",
+        "minkowski", "haversine". "haversine" is the distance along the great circle, for points
+        (longitude, latitude) in degrees.
+    p : float, 1 <= p <= inf, optional
+        The order of "minkowski"; 2 if not given.
+    radius : float > 0, optional
+        The radius of the sphere of "haversine", in the unit of the distances. The default is
+        6371008.8, the mean radius of the Earth in metres.
     epsilon : float >= 0
         Points at most so far apart match.
-    {window}
-    {cutoff}
-    {missing}
+    window : int >= 0 or 0 < float < 1, optional
+        Sakoe-Chiba band, as for :func:`dtw`.
+    cutoff : float >= 0, optional
+        Upper limit: return inf for distances above it, which takes less time.
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------
@@ -180,7 +214,11 @@ def lcss(
 
     Raises
     ------
-    {raises}
+    ValueError
+        If a curve is not finite or empty, the curves differ in d, an option is unknown or out of
+        range, or no path fits the window (window = 0 and n != m).
+    TypeError
+        If a curve does not hold real numbers.
 
     Notes
     -----
@@ -198,7 +236,8 @@ def lcss(
     return compiled_lcss(P, Q, (metric, p, radius, epsilon, window, cutoff))
 
 
-@filled(**_SHARED)
+# Shared text: curves, window, cutoff, missing, invalid_window
+# Signature: dtw(window, cutoff, missing)
 def msm(
     P: CurveLike,
     Q: CurveLike,
@@ -212,12 +251,16 @@ def msm(
 
     Parameters
     ----------
-    {curves}
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves, of any d.
     cost : float >= 0
         The cost of a split or a merge.
-    {window}
-    {cutoff}
-    {missing}
+    window : int >= 0 or 0 < float < 1, optional
+        Sakoe-Chiba band, as for :func:`dtw`.
+    cutoff : float >= 0, optional
+        Upper limit: return inf for distances above it, which takes less time.
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------
@@ -227,7 +270,11 @@ def msm(
 
     Raises
     ------
-    {raises}
+    ValueError
+        If a curve is not finite or empty, the curves differ in d, an option is unknown or out of
+        range, or no path fits the window (window = 0 and n != m).
+    TypeError
+        If a curve does not hold real numbers.
 
     Notes
     -----
@@ -246,7 +293,8 @@ def msm(
     return compiled_msm(P, Q, (cost, window, cutoff))
 
 
-@filled(**_SHARED)
+# Shared text: curves, metric, window, cutoff, missing, invalid_window
+# Signature: hausdorff(metric, p, radius), dtw(window, cutoff, missing)
 def twe(
     P: CurveLike,
     Q: CurveLike,
@@ -266,15 +314,27 @@ def twe(
 
     Parameters
     ----------
-    {curves}
-    {metric}
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves, of any d.
+    metric : str
+        The ground distance between points: "euclidean", "sqeuclidean", "cityblock", "chebyshev",
+        "minkowski", "haversine". "haversine" is the distance along the great circle, for points
+        (longitude, latitude) in degrees.
+    p : float, 1 <= p <= inf, optional
+        The order of "minkowski"; 2 if not given.
+    radius : float > 0, optional
+        The radius of the sphere of "haversine", in the unit of the distances. The default is
+        6371008.8, the mean radius of the Earth in metres.
     stiffness : float >= 0
         The cost of each unit of time between matched points; points are one unit apart.
     penalty : float >= 0
         The cost of each deleted point.
-    {window}
-    {cutoff}
-    {missing}
+    window : int >= 0 or 0 < float < 1, optional
+        Sakoe-Chiba band, as for :func:`dtw`.
+    cutoff : float >= 0, optional
+        Upper limit: return inf for distances above it, which takes less time.
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------
@@ -283,7 +343,11 @@ def twe(
 
     Raises
     ------
-    {raises}
+    ValueError
+        If a curve is not finite or empty, the curves differ in d, an option is unknown or out of
+        range, or no path fits the window (window = 0 and n != m).
+    TypeError
+        If a curve does not hold real numbers.
 
     Notes
     -----
@@ -302,7 +366,8 @@ def twe(
     return compiled_twe(P, Q, (metric, p, radius, stiffness, penalty, window, cutoff))
 
 
-@filled(**_SHARED)
+# Shared text: curves, metric, window, cutoff, missing, invalid_window
+# Signature: hausdorff(p, radius), dtw(window, cutoff, missing)
 def wdtw(
     P: CurveLike,
     Q: CurveLike,
@@ -321,13 +386,25 @@ def wdtw(
 
     Parameters
     ----------
-    {curves}
-    {metric}
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves, of any d.
+    metric : str
+        The ground distance between points: "euclidean", "sqeuclidean", "cityblock", "chebyshev",
+        "minkowski", "haversine". "haversine" is the distance along the great circle, for points
+        (longitude, latitude) in degrees.
+    p : float, 1 <= p <= inf, optional
+        The order of "minkowski"; 2 if not given.
+    radius : float > 0, optional
+        The radius of the sphere of "haversine", in the unit of the distances. The default is
+        6371008.8, the mean radius of the Earth in metres.
     steepness : float >= 0
         The steepness of the rise of the weight near half of the longer curve.
-    {window}
-    {cutoff}
-    {missing}
+    window : int >= 0 or 0 < float < 1, optional
+        Sakoe-Chiba band, as for :func:`dtw`.
+    cutoff : float >= 0, optional
+        Upper limit: return inf for distances above it, which takes less time.
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------
@@ -336,7 +413,11 @@ def wdtw(
 
     Raises
     ------
-    {raises}
+    ValueError
+        If a curve is not finite or empty, the curves differ in d, an option is unknown or out of
+        range, or no path fits the window (window = 0 and n != m).
+    TypeError
+        If a curve does not hold real numbers.
 
     Notes
     -----
@@ -355,7 +436,7 @@ def wdtw(
     return compiled_wdtw(P, Q, (metric, p, radius, steepness, window, cutoff))
 
 
-@filled(distances=listed(get_args(EditDistance)))
+# Shared text: measure(edit_distances)
 def edit_path(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any) -> Alignment:
     """Find a cheapest path of an edit distance through its table.
 
@@ -363,8 +444,8 @@ def edit_path(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any)
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
         The curves.
-    measure : {distances}
-        The edit distance.
+    measure : str
+        The edit distance: "erp", "edr", "lcss", "msm", "twe", "wdtw".
     **options
         The options of its function.
 
@@ -396,7 +477,7 @@ def edit_path(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any)
     return Alignment(*compiled_path(measure, A, B, options), (copied(P, A), copied(Q, B)))
 
 
-@filled(distances=listed(get_args(EditDistance)))
+# Shared text: measure(edit_distances)
 def edit_table(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any) -> Array:
     """Return the cumulative table of an edit distance.
 
@@ -404,8 +485,8 @@ def edit_table(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
         The curves.
-    measure : {distances}
-        The edit distance.
+    measure : str
+        The edit distance: "erp", "edr", "lcss", "msm", "twe", "wdtw".
     **options
         The options of its function.
 

@@ -11,7 +11,6 @@ from .._core import frechet as compiled_frechet
 from .._core import frechet_info as compiled_frechet_info
 from .._core import frechet_path as compiled_frechet_path
 from .._core import frechet_table as compiled_frechet_table
-from .._docstrings import filled
 from .._options import Default, GroundDistance, Missing, Order, Radius
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.missing import skip_in_pair
@@ -22,7 +21,7 @@ from .results import Alignment, WarpingInfo
 __all__ = ["frechet", "frechet_info", "frechet_path", "frechet_table"]
 
 
-@filled()
+# Shared text: curves, ground, workers, prune, cutoff, missing, closed, closed_notes, own_distances
 def frechet(
     P: CurveLike,
     Q: CurveLike,
@@ -40,13 +39,30 @@ def frechet(
 
     Parameters
     ----------
-    {curves}
-    {ground}
-    {workers}
-    {prune}
-    {cutoff}
-    {missing}
-    {closed}
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves, of any d.
+    metric : str, array_like of shape (n, m), or callable, default "euclidean"
+        The ground distance between points: "euclidean", "sqeuclidean", "cityblock", "chebyshev",
+        "minkowski", "haversine". "haversine" is the distance along the great circle, for points
+        (longitude, latitude) in degrees. A user-defined distance is an array of the distances of
+        all points of P and Q, or a function. The function receives some points of each curve, of
+        shapes (p, d) and (q, d), and returns their distances, of shape (p, q). Distances are at
+        least 0; inf forbids a pair.
+    p : float, 1 <= p <= inf, optional
+        The order of "minkowski"; 2 if not given.
+    radius : float > 0, optional
+        The radius of the sphere of "haversine", in the unit of the distances. The default is
+        6371008.8, the mean radius of the Earth in metres.
+    workers : int, default 1
+        Number of threads: at least 1, or -1 for one per core. The result does not change.
+    prune : bool, default True
+        Whether to skip table cells that cannot affect the result. The result does not change.
+    cutoff : float >= 0, optional
+        Upper limit: return inf for distances above it, which takes less time.
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
+    closed : bool, default False
+        Whether both curves are closed, so that their first points do not matter. See Notes.
 
     Returns
     -------
@@ -75,10 +91,18 @@ def frechet(
     Eiter & Mannila, "Computing discrete Fréchet distance" (1994): c[i, j] = max(d(P[i], Q[j]),
     min(c[i-1, j], c[i, j-1], c[i-1, j-1])). Exact. Time O(n m), memory O(n + m).
 
-    {closed_notes} It is found by bisection, each step in time O(n m), or less for similar curves.
+    ``closed=True``: the first point of a closed curve is arbitrary, and a last point that equals it
+    only closes the curve. A path goes once around both curves by steps of one point of either or of
+    both, and returns to its first pair, which counts once. The value is the smallest over all first
+    points of P and of Q.
+
+    The value is found by bisection, each step in time O(n m), or less for similar curves.
     Memory O(n + m). Exact.
 
-    {own_distances}
+    A user-defined metric is computed in one thread and without pruning. A callable is called once
+    for every 256 rows of the table (fewer if these are more than 2^21 pairs), so that memory stays
+    O(n + m), and up to three times for a path. It need not be symmetric. Its exceptions are not
+    caught.
 
     Examples
     --------
@@ -91,11 +115,12 @@ def frechet(
     if missing != "refuse":
         P, Q = skip_in_pair(P, Q, missing)
     if closed:
-        ground = {"metric": metric, "p": p, "radius": radius}
-        return closed_value("frechet", P, Q, ground, cutoff)
-    return compiled_frechet(P, Q, (metric, p, radius, workers, prune, cutoff))
+        return closed_value("frechet", P, Q, {"metric": metric, "p": p, "radius": radius}, cutoff)
+    options = (metric, p, radius, workers, prune, cutoff)
+    return compiled_frechet(P, Q, options)
 
 
+# Signature: frechet without cutoff, missing, closed
 def frechet_info(
     P: CurveLike,
     Q: CurveLike,
@@ -136,10 +161,11 @@ def frechet_info(
     (3.0, 6, 1.0)
     """
     P, Q = as_curves(P, Q)
-    how = {"metric": metric, "p": p, "radius": radius, "workers": workers, "prune": prune}
-    return WarpingInfo(*compiled_frechet_info(P, Q, how))
+    options = (metric, p, radius, workers, prune, Default.cutoff)
+    return WarpingInfo(*compiled_frechet_info(P, Q, options))
 
 
+# Signature: frechet without cutoff, missing
 def frechet_path(
     P: CurveLike,
     Q: CurveLike,
@@ -155,7 +181,7 @@ def frechet_path(
 
     Parameters
     ----------
-    P, Q, metric, p, radius, closed, workers, prune
+    P, Q, metric, p, radius, workers, prune, closed
         As for :func:`frechet`.
 
     Returns
@@ -184,10 +210,11 @@ def frechet_path(
     if closed:
         return closed_alignment("frechet", P, Q, {"metric": metric, "p": p, "radius": radius})
     A, B = as_curves(P, Q)
-    how = {"metric": metric, "p": p, "radius": radius, "workers": workers, "prune": prune}
-    return Alignment(*compiled_frechet_path(A, B, how), (copied(P, A), copied(Q, B)))
+    options = (metric, p, radius, workers, prune, Default.cutoff)
+    return Alignment(*compiled_frechet_path(A, B, options), (copied(P, A), copied(Q, B)))
 
 
+# Signature: frechet without workers, prune, cutoff, missing, closed
 def frechet_table(
     P: CurveLike,
     Q: CurveLike,
@@ -226,4 +253,5 @@ def frechet_table(
     [[0.0, 2.0], [1.0, 1.0], [2.0, 1.0]]
     """
     P, Q = as_curves(P, Q)
-    return compiled_frechet_table(P, Q, {"metric": metric, "p": p, "radius": radius})
+    options = (metric, p, radius, Default.workers, Default.prune, Default.cutoff)
+    return compiled_frechet_table(P, Q, options)

@@ -13,7 +13,6 @@ from .._core import frechet_continuous as compiled_frechet_continuous
 from .._core import frechet_continuous_bounds as compiled_frechet_continuous_bounds
 from .._core import frechet_continuous_path as compiled_frechet_continuous_path
 from .._core import frechet_within as compiled_frechet_within
-from .._docstrings import filled
 from .._options import Default, real_number
 from ..curves.inputs import CurveLike, as_curves
 from ..curves.named_curve import copied
@@ -38,7 +37,7 @@ def frechet_continuous(
 ) -> tuple[float, float]: ...
 
 
-@filled()
+# Shared text: workers
 def frechet_continuous(
     P: CurveLike,
     Q: CurveLike,
@@ -58,7 +57,8 @@ def frechet_continuous(
         The curves, of any d.
     bounds : bool, default False
         Whether to return both ends of the interval that contains the distance.
-    {workers}
+    workers : int, default 1
+        Number of threads: at least 1, or -1 for one per core. The result does not change.
 
     Returns
     -------

@@ -15,7 +15,6 @@ import numpy.typing as npt
 
 from .._core import value_and_gradient as compiled_value_and_gradient
 from .._core import values_and_gradients as compiled_values_and_gradients
-from .._docstrings import filled, listed
 from .._options import Default, Differentiable, check_choice
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.layouts import ask_about_curves
@@ -36,7 +35,7 @@ NO_SECOND_DERIVATIVE = (
 )
 
 
-@filled(measures=listed(get_args(Differentiable)))
+# Shared text: measure(differentiable)
 def value_and_gradient(
     P: CurveLike, Q: CurveLike, measure: Differentiable = "dtw", **options: Any
 ) -> tuple[float, Array]:
@@ -49,8 +48,9 @@ def value_and_gradient(
     ----------
     P, Q : array_like, shapes (n, d) and (m, d), or (n,) and (m,)
         The curves, as the measure takes them.
-    measure : {measures}
-        The measure.
+    measure : str
+        The name of the measure: "area", "curve_length", "dtw", "frechet", "frechet_continuous",
+        "soft_dtw", "sum_of_squares".
     **options
         Options of the measure; for area not ``spacing="arc_length"`` and "function".
 
@@ -108,7 +108,7 @@ def value_and_gradient(
     return compiled_value_and_gradient(measure, P, Q, options)
 
 
-@filled(measures=listed(BY_BOTH_CURVES))
+# Shared text: measure(by_both_curves), workers
 def values_and_gradients(
     P: npt.ArrayLike,
     Q: npt.ArrayLike,
@@ -123,9 +123,11 @@ def values_and_gradients(
     ----------
     P, Q : array_like, shapes (b, n, d) and (b, m, d)
         The curves, pair by pair.
-    measure : {measures}
-        The measure.
-    {workers}
+    measure : str
+        The name of the measure: "area", "curve_length", "dtw", "frechet", "frechet_continuous",
+        "soft_dtw".
+    workers : int, default 1
+        Number of threads: at least 1, or -1 for one per core. The result does not change.
     **options
         As for :func:`value_and_gradient`.
 

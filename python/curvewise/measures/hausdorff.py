@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import SupportsFloat
 
 from .._core import hausdorff as compiled_hausdorff
-from .._docstrings import filled
 from .._options import Default, Metric, Order, Radius
 from ..curves.inputs import CurveLike
 
 __all__ = ["hausdorff"]
 
 
-@filled()
+# Shared text: curves, metric, cutoff, invalid
 def hausdorff(
     P: CurveLike,
     Q: CurveLike,
@@ -28,9 +27,19 @@ def hausdorff(
 
     Parameters
     ----------
-    {curves}
-    {metric}
-    {cutoff}
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves, of any d.
+    metric : str
+        The ground distance between points: "euclidean", "sqeuclidean", "cityblock", "chebyshev",
+        "minkowski", "haversine". "haversine" is the distance along the great circle, for points
+        (longitude, latitude) in degrees.
+    p : float, 1 <= p <= inf, optional
+        The order of "minkowski"; 2 if not given.
+    radius : float > 0, optional
+        The radius of the sphere of "haversine", in the unit of the distances. The default is
+        6371008.8, the mean radius of the Earth in metres.
+    cutoff : float >= 0, optional
+        Upper limit: return inf for distances above it, which takes less time.
 
     Returns
     -------
@@ -39,7 +48,11 @@ def hausdorff(
 
     Raises
     ------
-    {invalid}
+    ValueError
+        If a curve is not finite or empty, the curves differ in d, or an option is unknown or out of
+        range.
+    TypeError
+        If a curve does not hold real numbers.
 
     Notes
     -----

@@ -6,7 +6,6 @@ from .._core import mae as compiled_mae
 from .._core import mse as compiled_mse
 from .._core import normalize as compiled_normalize
 from .._core import sum_of_squares as compiled_sum_of_squares
-from .._docstrings import filled
 from .._options import Default, Missing
 from ..curves.inputs import Array, CurveLike, as_curve, check_column_names, column_names
 from ..curves.layouts import ask_about_curves
@@ -15,7 +14,7 @@ from ..curves.missing import skip_in_both
 __all__ = ["mae", "mse", "normalize", "sum_of_squares"]
 
 
-@filled()
+# Shared text: missing
 def sum_of_squares(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> float:
     """Compute the sum of squared differences of two curves of equal shape.
 
@@ -23,7 +22,8 @@ def sum_of_squares(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.mis
     ----------
     P, Q : array_like, both of shape (n, d) or (n,)
         The curves.
-    {missing}
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------
@@ -53,7 +53,7 @@ def sum_of_squares(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.mis
     return compiled_sum_of_squares(P, Q)
 
 
-@filled()
+# Shared text: missing
 def mse(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> float:
     """Compute the mean squared difference of two curves of equal shape.
 
@@ -61,7 +61,8 @@ def mse(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> fl
     ----------
     P, Q : array_like, both of shape (n, d) or (n,)
         The curves.
-    {missing}
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------
@@ -89,7 +90,7 @@ def mse(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> fl
     return compiled_mse(P, Q)
 
 
-@filled()
+# Shared text: missing
 def mae(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> float:
     """Compute the mean absolute difference of two curves of equal shape.
 
@@ -97,7 +98,8 @@ def mae(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> fl
     ----------
     P, Q : array_like, both of shape (n, d) or (n,)
         The curves.
-    {missing}
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------

@@ -43,6 +43,7 @@ from .warping_table import filled_table, traced_path
 __all__ = ["checked_radius", "dtw", "dtw_path", "dtw_table", "sakoe_chiba_band"]
 
 
+# Signature: dtw without workers, prune, cutoff, missing
 def dtw(
     P: CurveLike,
     Q: CurveLike,
@@ -50,13 +51,13 @@ def dtw(
     metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
-    step_pattern: Steps = Default.step_pattern,
-    penalty: SupportsFloat = Default.penalty,
+    step_pattern: Steps = "symmetric1",
+    penalty: SupportsFloat = 0.0,
     window: Window = Default.window,
-    open_begin: bool = Default.open_begin,
-    open_end: bool = Default.open_end,
-    relax: Relax = Default.relax,
-    normalize: bool = Default.normalize,
+    open_begin: bool = False,
+    open_end: bool = False,
+    relax: Relax = None,
+    normalize: bool = False,
     closed: bool = Default.closed,
 ) -> float:
     """Time and memory O(n m).
@@ -65,17 +66,7 @@ def dtw(
     Motion" (2007), chapter 4. Closed curves: a table for each point at which Q may begin, O(n m²).
     """
     if closed:
-        check_closed(
-            {
-                "step_pattern": step_pattern,
-                "penalty": penalty,
-                "window": window,
-                "open_begin": open_begin,
-                "open_end": open_end,
-                "relax": relax,
-                "normalize": normalize,
-            }
-        )
+        check_closed(locals())
         return closed_dtw(P, Q, metric, p, radius).distance
     steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
     ends = _Ends.checked(open_begin, open_end, relax, normalize)
@@ -87,6 +78,7 @@ def dtw(
     return distance / {"N": n, "M": m, "N+M": n + m}[steps.per] if normalize else distance
 
 
+# Signature: dtw without normalize, workers, prune, cutoff, missing
 def dtw_path(
     P: CurveLike,
     Q: CurveLike,
@@ -94,26 +86,17 @@ def dtw_path(
     metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
-    step_pattern: Steps = Default.step_pattern,
-    penalty: SupportsFloat = Default.penalty,
+    step_pattern: Steps = "symmetric1",
+    penalty: SupportsFloat = 0.0,
     window: Window = Default.window,
-    open_begin: bool = Default.open_begin,
-    open_end: bool = Default.open_end,
-    relax: Relax = Default.relax,
+    open_begin: bool = False,
+    open_end: bool = False,
+    relax: Relax = None,
     closed: bool = Default.closed,
 ) -> Alignment:
     """As for :func:`dtw`."""
     if closed:
-        check_closed(
-            {
-                "step_pattern": step_pattern,
-                "penalty": penalty,
-                "window": window,
-                "open_begin": open_begin,
-                "open_end": open_end,
-                "relax": relax,
-            }
-        )
+        check_closed(locals())
         return closed_dtw(P, Q, metric, p, radius)
     steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
     ends = _Ends.checked(open_begin, open_end, relax)
@@ -129,6 +112,7 @@ def dtw_path(
     return Alignment(distance, traced_path(c, table.end[1], is_diagonal, open_begin=open_begin))
 
 
+# Signature: dtw without normalize, workers, prune, cutoff, missing, closed
 def dtw_table(
     P: CurveLike,
     Q: CurveLike,
@@ -136,12 +120,12 @@ def dtw_table(
     metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
-    step_pattern: Steps = Default.step_pattern,
-    penalty: SupportsFloat = Default.penalty,
+    step_pattern: Steps = "symmetric1",
+    penalty: SupportsFloat = 0.0,
     window: Window = Default.window,
-    open_begin: bool = Default.open_begin,
-    open_end: bool = Default.open_end,
-    relax: Relax = Default.relax,
+    open_begin: bool = False,
+    open_end: bool = False,
+    relax: Relax = None,
 ) -> Array:
     """As for :func:`dtw`."""
     steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
@@ -230,7 +214,7 @@ class _Ends(NamedTuple):
 
     @classmethod
     def checked(
-        cls, open_begin: bool, open_end: bool, relax: Relax, normalize: bool = Default.normalize
+        cls, open_begin: bool, open_end: bool, relax: Relax, normalize: bool = False
     ) -> _Ends:
         """Check the numbers of points that may be left out."""
         if relax is None:

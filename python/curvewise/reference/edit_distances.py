@@ -159,6 +159,7 @@ def _cell(table: Array) -> CellCost:
     return lambda i, j: float(table[i, j])
 
 
+# Signature: erp without cutoff, missing
 @_value
 def erp(
     P: CurveLike,
@@ -186,6 +187,7 @@ def erp(
     return pair.found(Recurrence(steps, None, sum(columns.tolist()), sum(rows.tolist())))
 
 
+# Signature: edr without cutoff, missing
 @_value
 def edr(
     P: CurveLike,
@@ -210,6 +212,7 @@ def edr(
     return pair.counted(Recurrence(_steps(apart, 1.0), None, 0.0, 0.0), max(pair.inside.shape))
 
 
+# Signature: lcss without cutoff, missing
 @_value
 def lcss(
     P: CurveLike,
@@ -229,9 +232,14 @@ def lcss(
     return found._replace(value=max(0.0, 1.0 + found.value / min(pair.inside.shape)))
 
 
+# Signature: msm without cutoff, missing
 @_value
 def msm(
-    P: CurveLike, Q: CurveLike, *, cost: SupportsFloat = 1.0, window: Window = Default.window
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    cost: SupportsFloat = 1.0,
+    window: Window = Default.window,
 ) -> _Found:
     """Time and memory O(n m)."""
     constant = real_number("cost", cost, 0.0, "give a number >= 0")
@@ -258,6 +266,7 @@ def _msm_of_one(pair: _Pair, coordinate: int, cost: float) -> _Found:
     return pair.found(Recurrence(steps, starts={(0, 0): abs(float(x[0] - y[0]))}))
 
 
+# Signature: twe without cutoff, missing
 @_value
 def twe(
     P: CurveLike,
@@ -294,6 +303,7 @@ def twe(
     return pair.found(Recurrence([match, above, left]))
 
 
+# Signature: wdtw without cutoff, missing
 @_value
 def wdtw(
     P: CurveLike,

@@ -30,6 +30,7 @@ from .warping_table import filled_table, traced_path
 __all__ = ["frechet", "frechet_path", "frechet_table"]
 
 
+# Signature: frechet without workers, prune, cutoff, missing
 def frechet(
     P: CurveLike,
     Q: CurveLike,
@@ -49,6 +50,7 @@ def frechet(
     return float(table.restored(table.leashes[-1, -1]))
 
 
+# Signature: frechet without workers, prune, cutoff, missing
 def frechet_path(
     P: CurveLike,
     Q: CurveLike,
@@ -71,6 +73,7 @@ def frechet_path(
     return Alignment(float(table.restored(c[-1, -1])), coupling)
 
 
+# Signature: frechet without workers, prune, cutoff, missing, closed
 def frechet_table(
     P: CurveLike,
     Q: CurveLike,

@@ -17,6 +17,7 @@ from .checks import check_pair
 __all__ = ["hausdorff"]
 
 
+# Signature: hausdorff without cutoff
 def hausdorff(
     P: CurveLike,
     Q: CurveLike,

@@ -16,7 +16,6 @@ from typing import Any, Literal, SupportsFloat, SupportsIndex, get_args
 import numpy as np
 import numpy.typing as npt
 
-from .._docstrings import filled
 from .._options import Default, check_choice, real_number, whole_number
 from ..curves.foreign_curves import warn
 from ..curves.inputs import Array, as_curve_list, copy_of
@@ -41,7 +40,7 @@ _STARTS = 10
 _FEW_CELLS = 2e9  # of a round, for which all starts are made
 
 
-@filled()
+# Shared text: layout
 class CurveKMeans(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # untyped
     """Divide curves into clusters, each around the mean of its curves.
 
@@ -72,7 +71,9 @@ class CurveKMeans(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # untype
         Draws the first centres.
     workers : int
         Number of threads for a call: at least 1, or -1 for one per core. Does not change a result.
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Attributes
     ----------

@@ -7,7 +7,6 @@ from typing import Any, Literal, SupportsIndex
 import numpy as np
 import numpy.typing as npt
 
-from .._docstrings import filled
 from .._options import Default, whole_number
 from ..curves.foreign_curves import warn
 from ..curves.inputs import as_curve, copy_of
@@ -30,7 +29,7 @@ from .inputs import (
 __all__ = ["CurveKMedoids"]
 
 
-@filled()
+# Shared text: layout
 class CurveKMedoids(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # untyped
     """Divide curves into clusters, each around one of them: its medoid.
 
@@ -52,7 +51,9 @@ class CurveKMedoids(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # unty
         Maximum number of passes in which each curve is tried as a medoid.
     workers : int
         Threads for a call: at least 1, or -1 for one per core. Never changes a result.
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Attributes
     ----------

@@ -11,7 +11,6 @@ from typing import Any, Literal, SupportsIndex, TypeAlias, get_args
 import numpy as np
 import numpy.typing as npt
 
-from .._docstrings import filled
 from .._options import Default, check_choice
 from ..curves.inputs import Array
 from ..curves.layouts import Layout
@@ -133,7 +132,7 @@ class _CurveNeighbors(CurveEstimator):
         return votes, indices
 
 
-@filled()
+# Shared text: layout
 class CurveKNeighborsClassifier(ClassifierMixin, _CurveNeighbors):  # type: ignore[misc]  # untyped
     """Classify a curve as the nearest of known curves are.
 
@@ -154,7 +153,9 @@ class CurveKNeighborsClassifier(ClassifierMixin, _CurveNeighbors):  # type: igno
         then vote alone.
     workers : int
         Number of threads for a call: at least 1, or -1 for one per core. Does not change a result.
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Attributes
     ----------
@@ -253,7 +254,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, _CurveNeighbors):  # type: igno
         return np.asarray(self.classes_[np.argmax(shares, axis=1)])
 
 
-@filled()
+# Shared text: layout
 class CurveKNeighborsRegressor(RegressorMixin, _CurveNeighbors):  # type: ignore[misc]  # untyped
     """Predict a number for a curve: the mean of the nearest known curves' numbers.
 
@@ -268,7 +269,9 @@ class CurveKNeighborsRegressor(RegressorMixin, _CurveNeighbors):  # type: ignore
     weights : {"uniform", "distance"}
         Whether every neighbour counts alike, or by one over its distance. Neighbours at distance 0
         then count alone.
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Attributes
     ----------

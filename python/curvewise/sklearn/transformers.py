@@ -11,7 +11,6 @@ from typing import Any, Literal, SupportsIndex, TypeAlias, get_args
 
 import numpy as np
 
-from .._docstrings import filled
 from .._options import check_choice
 from ..curves.derivative import derivative
 from ..curves.inputs import Array, in_columns
@@ -102,7 +101,7 @@ class _CurveTransformer(TransformerMixin, CurveEstimator):  # type: ignore[misc]
         raise NotImplementedError
 
 
-@filled()
+# Shared text: layout
 class CurveZNormalizer(_CurveTransformer):
     """Shift and scale each coordinate of every curve to mean 0 and deviation 1.
 
@@ -110,7 +109,9 @@ class CurveZNormalizer(_CurveTransformer):
 
     Parameters
     ----------
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Examples
     --------
@@ -123,7 +124,7 @@ class CurveZNormalizer(_CurveTransformer):
         return z_normalized
 
 
-@filled()
+# Shared text: layout
 class CurveDerivative(_CurveTransformer):
     """Replace every curve by its slopes, for derivative dynamic time warping.
 
@@ -131,7 +132,9 @@ class CurveDerivative(_CurveTransformer):
 
     Parameters
     ----------
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Examples
     --------
@@ -147,7 +150,7 @@ class CurveDerivative(_CurveTransformer):
         return derivative
 
 
-@filled()
+# Shared text: layout
 class CurveResampler(_CurveTransformer):
     """Put the same number of evenly spaced points on every curve.
 
@@ -160,7 +163,9 @@ class CurveResampler(_CurveTransformer):
     by : {"index", "arc_length"} or int
         The quantity along which points are evenly spaced: the place in the list of points, which
         suits time series; the arc length; or a column.
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Examples
     --------
@@ -193,7 +198,7 @@ class CurveResampler(_CurveTransformer):
         return resampled
 
 
-@filled()
+# Shared text: layout
 class CurveBoxScaler(_CurveTransformer):
     """Scale curves by the bounding box of those that were fitted.
 
@@ -201,7 +206,9 @@ class CurveBoxScaler(_CurveTransformer):
 
     Parameters
     ----------
-    {layout}
+    layout : {"channels_first", "channels_last"}, optional
+        Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+        rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
 
     Attributes
     ----------

@@ -15,7 +15,6 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from ..._docstrings import filled, listed
 from ..._names import did_you_mean
 from ..._options import Default, Missing, Preset, check_choice
 from ...measures import registry
@@ -41,7 +40,7 @@ LEAST_SQUARES = (
 Part: TypeAlias = Literal["experiment", "simulation"]
 
 
-@filled(measures=listed(MEASURES))
+# Shared text: measure(criteria)
 @dataclass(frozen=True, init=False, repr=False)
 class Criterion:
     """A measure with its options, and the preparation of the curves.
@@ -51,9 +50,11 @@ class Criterion:
 
     Parameters
     ----------
-    measure : {measures} or callable
-        A measure by its name, or a function of the experiment, the simulation and the options that
-        returns a float. If the function raises ValueError, the simulation has failed.
+    measure : str or callable
+        The name of a measure: "area", "pcm", "frechet", "dtw", "curve_length",
+        "frechet_continuous", "hausdorff", "hausdorff_continuous", "erp", "edr", "lcss", "msm",
+        "twe", "wdtw", "sum_of_squares". Or a function of the experiment, the simulation and the
+        options that returns a float. If the function raises ValueError, the simulation has failed.
         "sum_of_squares" sums squared differences of y; the simulation is interpolated linearly at
         the experiment's x, which must not reverse. Its option `abscissa` is the coordinate over
         which y is compared. It is the number of a column, 0 by default (``abscissa=2`` for loops
