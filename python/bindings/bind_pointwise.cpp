@@ -1,6 +1,10 @@
-// Measures without options, and the scaling by P's box.
+// Measures without options, and functions of one curve.
+#include <cstdint>
+#include <vector>
+
 #include "bind_topics.hpp"
 #include "curvewise/pointwise.hpp"
+#include "curvewise/simplify.hpp"
 #include "curvewise/symmetric_difference.hpp"
 #include "interruptible.hpp"
 #include "numpy_view.hpp"
@@ -9,6 +13,17 @@ namespace curvewise::bindings {
 namespace {
 
 double entries(const CurveArray& curve) { return static_cast<double>(curve.size()); }
+
+// The indices of the points that are kept.
+py::array_t<std::int64_t> kept_rows(const CurveArray& curve, double tolerance, bool by_frechet) {
+    const EdgeMeasure measure = by_frechet ? EdgeMeasure::frechet : EdgeMeasure::hausdorff;
+    const CurveView points = view(curve);
+    const double n = entries(curve);
+    const std::vector<std::int64_t> rows = interruptible(n * n, py::none(), [&](Control* control) {
+        return simplify(points, tolerance, measure, control);
+    });
+    return py::array_t<std::int64_t>(static_cast<py::ssize_t>(rows.size()), rows.data());
+}
 
 }  // namespace
 
@@ -26,6 +41,7 @@ void bind_pointwise(py::module_& module) {
     bind("mse", mse);
     bind("mae", mae);
     bind("symmetric_difference", symmetric_difference);
+    module.def("simplify", kept_rows);
     module.def("normalize", [](const CurveArray& P, const CurveArray& C, const char* name) {
         py::array_t<double> out(std::vector<py::ssize_t>(C.shape(), C.shape() + C.ndim()));
         const CurveView p = view(P), c = view(C);

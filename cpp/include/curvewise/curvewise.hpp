@@ -18,6 +18,7 @@
 #include "curvewise/options.hpp"
 #include "curvewise/pairwise.hpp"
 #include "curvewise/pointwise.hpp"
+#include "curvewise/simplify.hpp"
 #include "curvewise/soft_dtw.hpp"
 #include "curvewise/subsequence.hpp"
 #include "curvewise/symmetric_difference.hpp"

@@ -8,13 +8,13 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 
 #include "continuous/boxed_side.hpp"
 #include "continuous/coupling.hpp"
 #include "continuous/leash_bounds.hpp"
 #include "continuous/leash_search.hpp"
+#include "continuous/plain_range.hpp"
 #include "continuous/vertex_walk.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
@@ -28,35 +28,16 @@ using continuous::BoxedCurve;
 using continuous::CurveSummary;
 using continuous::FreeSet;
 using continuous::LeashSearch;
+using continuous::plain_scale;
 using continuous::Radius;
 using continuous::VertexWalk;
 using continuous::Vertices;
+using continuous::with_dimension;
 using curves::CheckedCurve;
 using curves::RangeScale;
 using runtime::Poller;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// The identity for curves whose fourth powers stay in range.
-RangeScale plain_scale(double largest) noexcept {
-    const bool is_plain = largest == 0.0 || (largest > 0x1p-100 && largest < 0x1p100);
-    return is_plain ? RangeScale(1.0) : RangeScale::to_unity(largest);
-}
-
-// Calls use(dim), with a constant for 1 to 3 coordinates and 0 otherwise.
-template <class Use>
-auto with_dimension(std::ptrdiff_t dim, Use use) {
-    switch (dim) {
-        case 1:
-            return use(std::integral_constant<int, 1>());
-        case 2:
-            return use(std::integral_constant<int, 2>());
-        case 3:
-            return use(std::integral_constant<int, 3>());
-        default:
-            return use(std::integral_constant<int, 0>());
-    }
-}
 
 class FrechetContinuousMeasure : public pairwise::Distance {
    public:

@@ -15,6 +15,7 @@ from .cycles import loop_energy, loops, peaks_and_valleys
 from .derivative import derivative
 from .resampling import resample, trim
 from .reversals import reversals
+from .simplification import simplify
 from .smoothing import smooth
 from .stiffness import damping, stiffness
 from .stress_strain import engineering_to_true, shift_to_origin
@@ -34,6 +35,7 @@ __all__ = [
     "resample",
     "reversals",
     "shift_to_origin",
+    "simplify",
     "smooth",
     "stiffness",
     "trim",

@@ -65,6 +65,7 @@ LONG_CALLS: dict[str, Callable[[], object]] = {
         random_walk(3000, 2000), "dtw", metric="minkowski", p=3
     )(random_walk(2000, 2000)),
     "cdist, many offsets": lambda: curvewise.cdist([CIRCLE], [CENTRE], "pcm", offsets=10**9),
+    "simplify": lambda: curvewise.curves.simplify(ZIGZAG, 0.5),
     "sum_of_squares": lambda: curvewise.sum_of_squares(ENDLESS, ENDLESS),
     "frechet_continuous": lambda: curvewise.frechet_continuous(*LONG),
     "value_and_gradient": lambda: curvewise.value_and_gradient(*LONG, "frechet"),
