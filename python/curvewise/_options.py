@@ -20,6 +20,7 @@ from ._names import did_you_mean
 
 __all__ = [
     "EARTH_RADIUS",
+    "BoundMetric",
     "CoordinateMetric",
     "Crossing",
     "Default",
@@ -39,8 +40,10 @@ __all__ = [
     "Window",
     "check_choice",
     "check_closed",
+    "check_window",
     "real_number",
     "whole_number",
+    "window_radius",
 ]
 
 Differentiable: TypeAlias = Literal[
@@ -50,9 +53,9 @@ WarpingName: TypeAlias = Literal["dtw", "frechet"]
 Preset: TypeAlias = Literal["scaled", "paper", "raw"]
 Missing: TypeAlias = Literal["refuse", "skip"]  # points with nan
 
-CoordinateMetric: TypeAlias = Literal[
-    "euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"
-]  # of differences of coordinates
+# Monotone in every difference of coordinates, also after rounding.
+BoundMetric: TypeAlias = Literal["euclidean", "sqeuclidean", "cityblock", "chebyshev"]
+CoordinateMetric: TypeAlias = Literal[BoundMetric, "minkowski"]  # of differences of coordinates
 Metric: TypeAlias = Literal[CoordinateMetric, "haversine"]
 _Points: TypeAlias = npt.NDArray[np.float64]
 # A metric's name, or a user-defined matrix or function of two blocks of points.
@@ -173,3 +176,21 @@ def whole_number(option: str, value: Any, least: int, advice: str, most: float =
     if number is None or not least <= number <= most:
         raise ValueError(f"{option} is {(value if number is None else number)!r}; {advice}")
     return number
+
+
+def check_window(window: Any) -> Any:
+    """Check a window, and return it as a radius, a fraction, or None."""
+    if window is None or (isinstance(window, float) and 0 < window < 1):
+        return window
+    advice = "give a whole number >= 0, a fraction between 0 and 1, or None"
+    return whole_number("window", window, 0, advice)
+
+
+def window_radius(window: Any, n: int, m: int) -> int | None:
+    """Return the radius of a window for n and m points, or None."""
+    radius = check_window(window)
+    if isinstance(radius, float):
+        radius = int(radius * max(n, m))
+    if radius == 0 and n != m and min(n, m) > 1:
+        raise ValueError(f"window=0 admits no path between {n} and {m} points; use at least 1")
+    return None if radius is None else int(radius)

@@ -109,6 +109,8 @@ number = curvewise.sum_of_squares(P, P) + curvewise.mse(P, P) + curvewise.mae(P,
 value_and_slope: tuple[float, FloatArray] = curvewise.value_and_gradient(P, Q, "area", spacing="x")
 number = curvewise.soft_dtw(P, Q, gamma=0.1, window=9) + curvewise.soft_dtw_divergence(P, Q)
 number = curvewise.sbd(P, Q)
+number = curvewise.lb_keogh(P, Q, window=0.1) + curvewise.lb_improved(P, Q, metric="cityblock")
+number = curvewise.lb_kim(P, Q)
 all_slopes: tuple[FloatArray, FloatArray, FloatArray] = curvewise.values_and_gradients(
     np.stack([P]), np.stack([Q]), "soft_dtw", workers=2, gamma=0.1
 )

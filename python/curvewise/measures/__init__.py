@@ -24,6 +24,7 @@ from .frechet_continuous import frechet_continuous, frechet_continuous_path, fre
 from .gradient import value_and_gradient, values_and_gradients
 from .hausdorff import hausdorff
 from .hausdorff_continuous import hausdorff_continuous, hausdorff_continuous_points
+from .lower_bounds import lb_improved, lb_keogh, lb_kim
 from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, normalize, sum_of_squares
 from .shape import sbd
@@ -52,6 +53,9 @@ __all__ = [
     "hausdorff",
     "hausdorff_continuous",
     "hausdorff_continuous_points",
+    "lb_improved",
+    "lb_keogh",
+    "lb_kim",
     "mae",
     "mse",
     "normalize",

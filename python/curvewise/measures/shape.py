@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..curves.checks import check_finite
-from ..curves.inputs import Array, CurveLike, as_curves, in_columns
-from ..curves.layouts import ask_about_curves
+from ..curves.inputs import Array, CurveLike
+from ..curves.pairs import checked_pair
 
 __all__ = ["sbd"]
 
@@ -55,19 +54,9 @@ def sbd(P: CurveLike, Q: CurveLike) -> float:
     >>> round(curvewise.sbd(pulse, [1, -1, 1, -1]), 3)
     0.796
     """
-    first, second = as_curves(P, Q)
-    for curve, name in ((first, "P"), (second, "Q")):
-        if curve.size == 0:
-            raise ValueError(f"{name} has shape {curve.shape}; sbd needs at least 1 point")
-        check_finite(curve, name)
-    ask_about_curves(first, second)
-    (n, d), (m, of_Q) = (in_columns(curve).shape for curve in (first, second))
-    if d != of_Q:
-        raise ValueError(
-            f"P has shape {first.shape} and Q has shape {second.shape}; both need the same number "
-            "of coordinates"
-        )
-    ours, theirs = _unit(in_columns(first)), _unit(in_columns(second))
+    first, second = checked_pair(P, Q, "sbd")
+    n, m = len(first), len(second)
+    ours, theirs = _unit(first), _unit(second)
     if not ours.any() or not theirs.any():
         return float(ours.any() or theirs.any())
     size = 1 << (n + m - 2).bit_length()

@@ -27,8 +27,10 @@ from .._options import (
     Relax,
     Window,
     check_closed,
+    check_window,
     real_number,
     whole_number,
+    window_radius,
 )
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
@@ -40,7 +42,7 @@ from .ground import Ground
 from .recurrence import EndOf, Recurrence, filled, found_path, last_cell, pattern_steps
 from .warping_table import filled_table, traced_path
 
-__all__ = ["checked_radius", "dtw", "dtw_path", "dtw_table", "sakoe_chiba_band"]
+__all__ = ["dtw", "dtw_path", "dtw_table", "sakoe_chiba_band"]
 
 
 # Signature: dtw without workers, prune, cutoff, missing
@@ -164,7 +166,7 @@ def _accumulate(
     distance = Ground.checked(P, Q, metric, p, radius)
     _check_steps(steps, window, ends)
     P, Q = check_pair(P, Q, "dtw", on_sphere=distance.is_on_sphere)
-    reach = checked_radius(window, len(P), len(Q))
+    reach = window_radius(window, len(P), len(Q))
     ground, exponent = distance.distances(P, Q, steps.penalty)
     inside = sakoe_chiba_band(len(P), len(Q), reach)
     weight = None if any(ends.relax) else steps.diagonal_weight
@@ -300,7 +302,7 @@ def _check_relax(steps: _Steps, window: Any, ends: _Ends) -> None:
 
 def _check_steps(steps: _Steps, window: Any, ends: _Ends) -> None:
     """Check the options that shape the path."""
-    _check_window(window)
+    check_window(window)
     if any(ends.relax):
         _check_relax(steps, window, ends)
     if not steps.is_open:
@@ -320,24 +322,6 @@ def _check_steps(steps: _Steps, window: Any, ends: _Ends) -> None:
             "paths all have one weight, such as 'symmetric2' or 'asymmetric'; those of "
             f"{steps.name} differ"
         )
-
-
-def _check_window(window: Any) -> Any:
-    """Check a window, and return it as a radius, a fraction, or None."""
-    if window is None or (isinstance(window, float) and 0 < window < 1):
-        return window
-    advice = "give a whole number >= 0, a fraction between 0 and 1, or None"
-    return whole_number("window", window, 0, advice)
-
-
-def checked_radius(window: Any, n: int, m: int) -> int | None:
-    """Return the radius of a window for n and m points, or None."""
-    radius = _check_window(window)
-    if isinstance(radius, float):
-        radius = int(radius * max(n, m))
-    if radius == 0 and n != m and min(n, m) > 1:
-        raise ValueError(f"window=0 admits no path between {n} and {m} points; use at least 1")
-    return None if radius is None else int(radius)
 
 
 def sakoe_chiba_band(n: int, m: int, radius: int | None) -> npt.NDArray[np.bool_]:

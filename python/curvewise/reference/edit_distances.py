@@ -16,13 +16,13 @@ from typing import Any, Literal, NamedTuple, ParamSpec, SupportsFloat, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, Metric, Order, Radius, Window, real_number
+from .._options import Default, Metric, Order, Radius, Window, real_number, window_radius
 from ..curves.ground_distance import check_metric, degree, ground_distances, in_range
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
 from .checks import check_pair
-from .dtw import checked_radius, sakoe_chiba_band
+from .dtw import sakoe_chiba_band
 from .recurrence import CellCost, Recurrence, Step, filled, found_path
 
 __all__ = ["edit_path", "edit_table", "edr", "erp", "lcss", "msm", "twe", "wdtw"]
@@ -99,7 +99,7 @@ class _Pair(NamedTuple):
         P, Q = as_curves(P, Q)
         metric, order = check_metric(metric, p, radius)
         P, Q = check_pair(P, Q, measure, on_sphere=metric == "haversine")
-        reach = checked_radius(window, len(P), len(Q))
+        reach = window_radius(window, len(P), len(Q))
         P, Q, exponent = in_range(P, Q, metric, constant, coordinate)
         return cls(P, Q, metric, order, sakoe_chiba_band(len(P), len(Q), reach), exponent)
 

@@ -165,6 +165,8 @@ def test_functions_of_a_measure_take_its_options(function: str) -> None:
     of_measure = keyword_defaults(MEASURES[measure].function) if measure else {}
     if function.startswith("soft_dtw"):  # a loss, not a distance, and in none of their lists
         of_measure = keyword_defaults(measures.soft_dtw)
+    if function.startswith("lb_"):  # bounds of dtw
+        of_measure = keyword_defaults(measures.dtw)
     assert options.items() <= of_measure.items()
     plain = {key: value for key, value in options.items() if key not in NOT_OF_THE_REFERENCE}
     of_reference = keyword_defaults(getattr(reference, function))
