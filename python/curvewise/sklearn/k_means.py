@@ -48,14 +48,16 @@ class CurveKMeans(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # untype
     ----------
     n_clusters : int
         Number of clusters.
-    measure : {"dtw", "soft_dtw", "frechet"}
+    measure : {"dtw", "soft_dtw", "frechet", "sbd"}
         The kind of mean. "dtw" is that of :func:`curvewise.dtw_mean` (DTW barycentre averaging),
         whose sum is of ``dtw(curve, mean, metric="sqeuclidean")``. "soft_dtw" is that of
         :func:`curvewise.soft_dtw_mean`. "frechet" is the medoid under frechet;
-        :class:`CurveKMedoids` finds smaller sums if all distances can be computed.
+        :class:`CurveKMedoids` finds smaller sums if all distances can be computed. "sbd" is
+        k-Shape: curves are z-normalised, and the mean is the shape that correlates most with its
+        curves, each shifted to where it fits best; see :func:`curvewise.sbd`.
     options : dict, optional
         Options: for dtw "window", for soft_dtw "gamma" and "window", for frechet those of its
-        function.
+        function, for sbd none.
     init : "k-means++" or callable
         The choice of first centres. "k-means++" draws each with the chance of its distance from
         those before, and keeps the best of ``2 + log(n_clusters)`` draws. A callable is called as
@@ -93,9 +95,11 @@ class CurveKMeans(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # untype
 
     Notes
     -----
-    k-means++ and Lloyd's algorithm; a cluster without curves gets the one that is farthest from its
-    centre. Curves as for :class:`CurveKMedoids`. Time: k distances and ten moves of a mean for each
-    curve and round, nothing of all pairs; memory that of the curves.
+    k-means++ (Arthur & Vassilvitskii 2007) and Lloyd's algorithm. "sbd" is the algorithm of
+    Paparrizos & Gravano, "k-Shape: Efficient and Accurate Clustering of Time Series", SIGMOD 2015,
+    with k-means++ instead of random labels. A cluster without curves gets the one that is farthest
+    from its centre. Curves as for :class:`CurveKMedoids`. Time: k distances and ten moves of a mean
+    for each curve and round, nothing of all pairs; memory that of the curves.
 
     Examples
     --------
@@ -163,6 +167,7 @@ class CurveKMeans(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # untype
         limit = real_number("tol", self.tol, 0.0, "give a number >= 0")
         (given,) = curves_to_fit(self, X)
         curves = as_curve_list(given, "X", layout="channels_last")  # in float64
+        curves = [mean.prepared(curve) for curve in curves]
         most = len(curves)
         advice = f"give a whole number from 1 to {most}, the curves (n_samples={most})"
         count = whole_number("n_clusters", self.n_clusters, 1, advice, most)
@@ -205,8 +210,8 @@ class CurveKMeans(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # untype
         ValueError, TypeError
             As for :func:`curvewise.cdist`.
         """
-        curves = fitted_curves(self, X)
         mean, options = self._mean()
+        curves = [mean.prepared(curve) for curve in fitted_curves(self, X)]
         return _nearest(curves, self.cluster_centers_, mean, options)[0]
 
     def _starts(self, curves: Curves, count: int) -> int:
@@ -233,7 +238,7 @@ class CurveKMeans(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # untype
         centers = as_curve_list(self.init(curves, count, random), "init", layout="channels_last")
         if len(centers) != count:
             raise ValueError(f"init returns {len(centers)} curves; give {count}, one a cluster")
-        return [copy_of(center) for center in centers]
+        return [copy_of(mean.prepared(center)) for center in centers]
 
     def _mean(self) -> tuple[Mean, dict[str, Any]]:
         """Return the kind of mean, and the arguments of its functions."""
@@ -241,10 +246,10 @@ class CurveKMeans(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # untype
         mean = MEANS[self.measure]
         options = dict(self.options or {})
         for name in options:
-            if mean.options and name not in mean.options:
+            if mean.options is not None and name not in mean.options:
                 raise TypeError(
                     f"the mean under {self.measure!r} has no option {name!r}; it has "
-                    f"{' and '.join(mean.options)}"
+                    f"{' and '.join(mean.options) or 'none'}"
                 )
         return mean, {"workers": self.workers, **options}
 

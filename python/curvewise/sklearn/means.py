@@ -10,13 +10,15 @@ import numpy as np
 
 from .._core import dtw_mean as compiled_dtw_mean
 from ..curves.inputs import Array
+from ..curves.z_normalization import z_normalized
 from ..many.averages import soft_mean
 from ..many.pairwise import Measure, cdist
+from ..many.shape_means import moved_shape, shape_distances
 from ..measures.soft_dtw import soft_dtw
 
 __all__ = ["MEANS", "MOVES", "Curves", "Mean", "MeanName"]
 
-MeanName: TypeAlias = Literal["dtw", "soft_dtw", "frechet"]
+MeanName: TypeAlias = Literal["dtw", "soft_dtw", "frechet", "sbd"]
 Curves: TypeAlias = list[Array]
 
 MOVES = 10  # of a mean in a round
@@ -29,17 +31,20 @@ class Mean:
 
     Attributes
     ----------
-    options : tuple of str
-        What it can be told; () for all options of the measure.
+    options : tuple of str, or None
+        What it can be told; None for all options of the measure.
     distances : callable
         Of (curves, centers, workers, **options): the distances, shape (k, number of centers).
     moved : callable
         Of (center, its curves, their weights, workers, **options): the center, nearer to them.
+    prepared : callable
+        Of a curve: what is compared of it.
     """
 
-    options: tuple[str, ...]
+    options: tuple[str, ...] | None
     distances: Callable[..., Array]
     moved: Callable[..., Array]
+    prepared: Callable[[Array], Array] = np.asarray
 
 
 def _distances(curves: Curves, centers: Curves, measure: Measure, **options: Any) -> Array:
@@ -81,8 +86,17 @@ def _frechet_moved(
     return curves[int(np.argmin(weights @ np.asarray(cdist(curves, None, "frechet", **told))))]
 
 
+def _shape_distances(curves: Curves, centers: Curves, workers: Any) -> Array:
+    return shape_distances(curves, centers)
+
+
+def _shape_moved(center: Array, curves: Curves, weights: Array, workers: Any) -> Array:
+    return moved_shape(center, curves, weights)
+
+
 MEANS: dict[str, Mean] = {
     "dtw": Mean(("window",), _dtw_distances, _dtw_moved),
     "soft_dtw": Mean(("gamma", "window"), _soft_distances, _soft_moved),
-    "frechet": Mean((), _frechet_distances, _frechet_moved),
+    "frechet": Mean(None, _frechet_distances, _frechet_moved),
+    "sbd": Mean((), _shape_distances, _shape_moved, z_normalized),
 }

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 import curvewise
+from curvewise.curves import z_normalized
 from curvewise.many.k_medoids import k_medoids
+from curvewise.many.shape_means import moved_shape, shape_distances
 
 # Test by test, because a file that is skipped as a whole would not be in the list of skipped tests.
 with_scikit_learn = pytest.mark.skipif(
@@ -142,15 +144,20 @@ def test_tables_of_lines_have_clusters():
 
 
 @with_scikit_learn
-@pytest.mark.parametrize("name", ["CurveKMedoids", "CurveKMeans"])
-def test_clusters_pass_the_checks_of_estimators(name):
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [("CurveKMedoids", {}), ("CurveKMeans", {}), ("CurveKMeans", {"measure": "sbd"})],
+)
+def test_clusters_pass_the_checks_of_estimators(name, options):
     from sklearn.utils.estimator_checks import check_estimator
 
     expected = {
         "check_sample_weight_equivalence_on_dense_data": "first centres are drawn; curves that do "
         "not count may be medoids, as of scikit-learn's KMeans"
     }
-    estimator = getattr(curvewise.sklearn, name)(3)
+    if options:
+        expected["check_clustering"] = "rows of two numbers have no level, no scale and no shape"
+    estimator = getattr(curvewise.sklearn, name)(3, **options)
     results = check_estimator(estimator, expected_failed_checks=expected, on_skip=None)
     assert len(results) > 40
 
@@ -159,7 +166,7 @@ def test_clusters_pass_the_checks_of_estimators(name):
 @pytest.mark.parametrize(
     ("kind", "measure"),
     [
-        *(("CurveKMeans", measure) for measure in ("dtw", "soft_dtw", "frechet")),
+        *(("CurveKMeans", measure) for measure in ("dtw", "soft_dtw", "frechet", "sbd")),
         ("CurveKMedoids", "frechet"),
     ],
 )
@@ -180,6 +187,73 @@ def test_a_weight_is_the_curve_that_often(kind, measure):
     assert without.labels_.shape == (12,)
     with pytest.raises(ValueError, match=r"sample_weight is 0|at least one non-zero"):
         estimator.fit(curves, sample_weight=np.zeros(12))
+
+
+def pulses(count: int = 24, seed: int = 0) -> tuple[list[np.ndarray], np.ndarray]:
+    """Return pulses of three shapes, at any time, level and height, and their shapes."""
+    random = np.random.default_rng(seed)
+    truth = np.arange(count) % 3
+    curves = []
+    for k in truth:
+        t = np.linspace(-1, 1, random.integers(18, 24))
+        pulse = [np.exp(-20 * t**2), np.sin(np.pi * t), np.sin(3 * np.pi * t)][k]
+        curve = np.roll(np.concatenate([np.zeros(30), pulse, np.zeros(30)]), random.integers(-9, 9))
+        curves.append(9 * random.normal() + random.uniform(1, 9) * curve)
+    return curves, truth
+
+
+@with_scikit_learn
+def test_k_shape_finds_shapes_at_any_time_level_and_scale():
+    curves, truth = pulses()
+    found = curvewise.sklearn.CurveKMeans(3, measure="sbd", random_state=0).fit(curves)
+    assert same_groups(found.labels_, truth)
+    assert np.array_equal(found.predict([5 + 3 * curve for curve in curves]), found.labels_)
+    normalized = [z_normalized(curve) for curve in curves]
+    distances = curvewise.cdist(normalized, found.cluster_centers_, curvewise.sbd)
+    assert found.inertia_ == pytest.approx(distances.min(axis=1).sum(), abs=1e-12)
+    for center in found.cluster_centers_:
+        np.testing.assert_allclose([center.mean(), center.std()], [0.0, 1.0], atol=1e-12)
+    with pytest.raises(TypeError, match="under 'sbd' has no option 'window'; it has none"):
+        curvewise.sklearn.CurveKMeans(3, measure="sbd", options={"window": 2}).fit(curves)
+
+
+def test_distances_from_shapes_are_sbd():
+    random = np.random.default_rng(4)
+    for d in (1, 2, 5):
+        curves = [random.normal(size=(n, d)) for n in (1, 2, 9, 30, 17)] + [np.zeros((4, d))]
+        centers = [random.normal(size=(n, d)) for n in (3, 12, 1)] + [np.zeros((5, d))]
+        expected = [[curvewise.sbd(curve, center) for center in centers] for curve in curves]
+        np.testing.assert_allclose(shape_distances(curves, centers), expected, atol=1e-13)
+
+
+@pytest.mark.parametrize(("n", "d", "count"), [(12, 1, 30), (12, 1, 4), (9, 2, 5), (9, 2, 40)])
+def test_no_shape_correlates_more(n, d, count):
+    random = np.random.default_rng(n * count)
+    curves = list(random.normal(size=(count, n, d)))
+    center, weights = random.normal(size=(n, d)), random.uniform(0.1, 2.0, count)
+    aligned = []
+    for curve in curves:  # shift by shift
+        shifted = {}
+        for shift in range(-n + 1, n):
+            copy = np.zeros((n, d))
+            copy[max(shift, 0) : n + min(shift, 0)] = curve[max(-shift, 0) : n - max(shift, 0)]
+            shifted[(copy * center).sum()] = copy
+        aligned.append(shifted[max(shifted)])
+
+    def strength(shape: np.ndarray) -> float:
+        shape = shape - shape.mean(axis=0)
+        products = np.array([(curve * shape).sum() for curve in aligned])
+        return float(weights @ products**2 / (shape**2).sum())
+
+    found = moved_shape(center, curves, weights)
+    assert weights @ [(curve * found).sum() for curve in aligned] > 0.0
+    np.testing.assert_allclose(found.mean(axis=0), 0.0, atol=1e-12)
+    for step in (1e-3, 0.1, 10.0):
+        for _ in range(30):
+            other = found + step * random.normal(size=(n, d))
+            assert strength(other) <= strength(found) * (1 + 1e-12)
+    still = [np.full((n, d), 3.0)]
+    assert moved_shape(center, still, np.ones(1)) is not None
 
 
 @with_scikit_learn
