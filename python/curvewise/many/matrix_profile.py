@@ -13,7 +13,7 @@ import numpy as np
 
 from .._core import Index as CompiledIndex
 from .._core import matrix_profile as find_profile
-from .._options import Default, whole_number
+from .._options import Default, Window, whole_number, window_radius
 from ..curves.checks import check_finite
 from ..curves.inputs import Array, CurveLike, as_curve, in_columns
 from ..curves.z_normalization import normalized_windows, window_moments
@@ -27,7 +27,7 @@ def matrix_profile(
     record: CurveLike,
     length: SupportsIndex,
     *,
-    window: SupportsIndex | None = 0,
+    window: Window = 0,
     exclusion: SupportsIndex | None = None,
     workers: SupportsIndex = Default.workers,
 ) -> MatrixProfile:
@@ -44,9 +44,9 @@ def matrix_profile(
         The record; of any d.
     length : int >= 2
         Number of points of a window.
-    window : int >= 0, optional
+    window : int >= 0 or 0 < float < 1, optional
         Half-width of the Sakoe-Chiba band of dtw. By default 0, which compares point by point: the
-        Euclidean distance. None is dtw without a band.
+        Euclidean distance. A fraction is one of `length`, rounded down. None is dtw without a band.
     exclusion : int >= 0, optional
         Windows whose starts differ by at most this number are not compared. By default
         ``length // 2``.
@@ -98,8 +98,7 @@ def matrix_profile(
     zone = n // 2
     if exclusion is not None:
         zone = whole_number("exclusion", exclusion, 0, "give a whole number >= 0, or None")
-    if window is not None:
-        window = whole_number("window", window, 0, "give a whole number >= 0, or None")
+    window = window_radius(window, n, n)
     check_finite(curve, "record")
     points = in_columns(curve)
     if points.shape[1] == 0 or len(points) < n + zone + 1:

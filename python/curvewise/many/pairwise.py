@@ -328,6 +328,17 @@ def pdist(
     return labelled_triangle(out, labels)
 
 
+# What users look for among the named measures.
+_ELSEWHERE = {
+    **{
+        name: f"cdist, pdist and estimators take the function, measure=curvewise.{name}"
+        for name in ("lb_improved", "lb_keogh", "lb_kim", "sbd", "soft_dtw", "soft_dtw_divergence")
+    },
+    "ddtw": "give slopes, curvewise.curves.derivative(curve) for each curve, and measure='dtw'",
+    "wddtw": "give slopes, curvewise.curves.derivative(curve) for each curve, and measure='wdtw'",
+}
+
+
 def _is_called_by_pairs(measure: Measure, options: Mapping[str, Any]) -> bool:
     """Return whether pairs are called from Python: callables and closed curves."""
     return callable(measure) or callable(options.get("metric")) or bool(options.get("closed"))
@@ -361,6 +372,8 @@ def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
             f"{measure!r} is a ground distance, between points; the measure is of curves, one of "
             f"{', '.join(names)}: use measure='dtw', metric={measure!r} for example"
         )
+    if isinstance(measure, str) and measure in _ELSEWHERE:
+        raise ValueError(f"{measure!r} is not a measure by its name: {_ELSEWHERE[measure]}")
     check_choice("measure", measure, names)
     metric = options.get("metric")
     if isinstance(metric, str) and metric in names:

@@ -20,9 +20,11 @@ from .._options import (
     Order,
     Radius,
     WarpingName,
+    Window,
     check_choice,
     real_number,
     whole_number,
+    window_radius,
 )
 from ..curves.checks import check_finite
 from ..curves.ground_distance import check_metric
@@ -52,7 +54,7 @@ def subsequence(
     cutoff: SupportsFloat | None = Default.cutoff,
     path: bool = False,
     normalize: bool = False,
-    window: SupportsIndex | None = None,
+    window: Window = None,
     workers: SupportsIndex = Default.workers,
 ) -> list[Subsequence]:
     """Find the subsequences of Q that are most similar to P.
@@ -87,9 +89,9 @@ def subsequence(
     normalize : bool
         Whether to find sections that differ by a shift and a scale, too. Every section then has the
         length of P, and both are compared after :func:`curvewise.curves.z_normalized`.
-    window : int >= 0, optional
+    window : int >= 0 or 0 < float < 1, optional
         With `normalize` and dtw, the half-width of the Sakoe-Chiba band; 0 compares point by point.
-        Unlimited by default.
+        A fraction is one of the length of P, rounded down. Unlimited by default.
     workers : int, default 1
         Number of threads: at least 1, or -1 for one per core. The result does not change.
 
@@ -127,6 +129,7 @@ def subsequence(
     0.0 2 4
     0.5 7 9
     """
+    _check_one(P)
     P, Q = as_curves(P, Q)
     ask_about_curves(P, Q)
     count = min(whole_number("k", k, 1, "give a whole number >= 1"), sys.maxsize)
@@ -145,6 +148,16 @@ def subsequence(
     runs = ((answer, Q[answer.start : answer.stop + 1]) for answer in answers)
     with settled_layout():
         return [_with_path(P, run, measure, ground, answer) for answer, run in runs]
+
+
+def _check_one(P: Any) -> None:
+    """Refuse a list of queries, and show the call that searches for each."""
+    first = P[0] if isinstance(P, list | tuple) and len(P) > 0 else None
+    if getattr(P, "ndim", 0) == 3 or getattr(first, "ndim", 0) == 2:
+        raise ValueError(
+            "P is a list of curves; a search is for one of them: "
+            "[curvewise.subsequence(query, Q) for query in P]"
+        )
 
 
 def _with_path(
@@ -173,7 +186,7 @@ def _normalized(
     if window is not None:
         if measure != "dtw":
             raise ValueError("window needs measure='dtw'")
-        window = whole_number("window", window, 0, "give a whole number >= 0, or None")
+        window = window_radius(window, len(P), len(P))
         options = {**options, "window": window}
     WARPINGS[measure].path(P[:1], Q[:1])  # what both refuse: shapes, and curves without points
     limit = math.inf if cutoff is None else real_number("cutoff", cutoff, 0.0, _CUTOFF_ADVICE)

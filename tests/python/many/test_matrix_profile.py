@@ -116,6 +116,13 @@ def test_small_records(data):
         assert (apart[~np.eye(len(chosen), dtype=bool)] > zone).all()
 
 
+def test_a_fraction_is_one_of_the_length():
+    record = record_of("walk", 90)
+    for fraction, window in ((0.3, 3), (0.05, 0)):
+        found = curvewise.matrix_profile(record, 12, window=fraction)
+        check_equal(found, curvewise.matrix_profile(record, 12, window=window))
+
+
 def test_memory_layouts():
     record = record_of("walk", 60, 3)
     expected = curvewise.matrix_profile(record, 10)
@@ -160,7 +167,11 @@ def test_later_motifs_and_discords_keep_their_distance():
     [
         ((np.arange(9.0), 1), {}, r"length is 1; give a whole number >= 2"),
         ((np.arange(9.0), 2.5), {}, r"length is 2.5; give a whole number >= 2"),
-        ((np.arange(9.0), 3), {"window": -1}, r"window is -1; give a whole number >= 0, or None"),
+        (
+            (np.arange(9.0), 3),
+            {"window": -1},
+            r"window is -1; give a whole number >= 0, a fraction",
+        ),
         ((np.arange(9.0), 3), {"exclusion": -1}, r"exclusion is -1; give a whole number >= 0"),
         (
             (np.arange(9.0), 6),

@@ -114,7 +114,7 @@ def test_windows_that_stand_still_are_zero() -> None:
     ("options", "message"),
     [
         ({"window": 3}, "window needs normalize=True"),
-        ({"normalize": True, "window": -1}, "window is -1; give a whole number >= 0, or None"),
+        ({"normalize": True, "window": -1}, "window is -1; give a whole number >= 0, a fraction"),
         ({"normalize": True, "window": 3, "measure": "frechet"}, "window needs measure='dtw'"),
         ({"normalize": True, "metric": "haversine"}, "normalize needs coordinates to scale"),
         ({"normalize": True, "cutoff": -1}, "cutoff is -1; give a number >= 0, or None"),

@@ -182,3 +182,21 @@ def test_out_of_a_read_only_array():
     out.flags.writeable = False
     with pytest.raises(ValueError, match="out must be C-contiguous, aligned and writeable"):
         cdist([GOOD], out=out)
+
+
+@pytest.mark.parametrize(
+    ("measure", "advice"),
+    [
+        ("soft_dtw", "measure=curvewise.soft_dtw"),
+        ("sbd", "measure=curvewise.sbd"),
+        ("lb_keogh", "measure=curvewise.lb_keogh"),
+        ("wddtw", "curvewise.curves.derivative.* and measure='wdtw'"),
+    ],
+)
+def test_what_is_not_a_measure_by_its_name_says_what_works(measure, advice):
+    curves = [[0.0, 1.0, 3.0], [1.0, 2.0]]
+    for call in (cdist, pdist, Index):
+        with pytest.raises(
+            ValueError, match=f"'{measure}' is not a measure by its name: .*{advice}"
+        ):
+            call(curves, measure=measure)

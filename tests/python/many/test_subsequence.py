@@ -111,3 +111,17 @@ def test_errors_say_what_and_where():
         curvewise.subsequence([0], [0, np.nan])
     with pytest.raises(ValueError, match="both need the same number of coordinates"):
         curvewise.subsequence([0], [(0, 0)])
+
+
+def test_a_fraction_is_one_of_the_query() -> None:
+    random = np.random.default_rng(6)
+    P, Q = random.normal(size=20).cumsum(), random.normal(size=300).cumsum()
+    found = curvewise.subsequence(P, Q, k=3, normalize=True, window=0.17)
+    assert found == curvewise.subsequence(P, Q, k=3, normalize=True, window=3)
+    assert found != curvewise.subsequence(P, Q, k=3, normalize=True, window=2)
+
+
+@pytest.mark.parametrize("queries", [[np.zeros((3, 2))] * 2, np.zeros((2, 3, 1))])
+def test_a_list_of_queries_is_refused_with_the_call_that_works(queries) -> None:
+    with pytest.raises(ValueError, match=r"\[curvewise.subsequence\(query, Q\) for query in P\]"):
+        curvewise.subsequence(queries, np.zeros((9, 2)))
