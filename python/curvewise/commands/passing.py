@@ -16,10 +16,10 @@ from ..comparing.tube import Tube, tube
 from ..curves.inputs import Array
 from ..measures.registry import MEASURES
 
-__all__ = ["Outcome", "add_limits", "checked", "measures_with_limits"]
+__all__ = ["LimitsCheck", "add_limits", "checked", "measures_with_limits"]
 
 
-class Outcome(NamedTuple):
+class LimitsCheck(NamedTuple):
     """The result of the limits; None for limits that were not given."""
 
     measures: Verdict | None
@@ -91,14 +91,14 @@ def measures_with_limits(arguments: argparse.Namespace) -> Sequence[str] | None:
     return list(dict.fromkeys([*(arguments.measures or []), *limited]))
 
 
-def checked(arguments: argparse.Namespace, comparison: Comparison) -> Outcome:
+def checked(arguments: argparse.Namespace, comparison: Comparison) -> LimitsCheck:
     """Return the outcome of the limits that the arguments give."""
     measures = comparison.within(dict(arguments.within)) if arguments.within else None
     if arguments.tube is None:
-        return Outcome(measures, None)
+        return LimitsCheck(measures, None)
     P, Q = comparison.P, comparison.Q
     size = [_size(text, P, column) for column, text in enumerate(arguments.tube)]
-    return Outcome(measures, tube(P, Q, *size))
+    return LimitsCheck(measures, tube(P, Q, *size))
 
 
 def _limit(text: str) -> tuple[str, str]:

@@ -15,7 +15,7 @@ from ..solvers.cards import CardContent, card_text
 from .card_paths import CYCLES, paths_of
 from .driven_model import DrivenModel, Part, PointType, given_stresses
 from .point import MaterialPoint
-from .readings import Reading, Span, reading_of, strain_and_stress
+from .readings import MaterialReading, Span, reading_of, strain_and_stress
 
 __all__ = ["Material"]
 
@@ -132,7 +132,7 @@ class Material(MaterialPoint, ABC):
     def _hardening_bounds(self, span: Span) -> Bounds:
         """Return the bounds of all parameters except for those of the modulus."""
 
-    def _modulus_bounds(self, readings: Sequence[Reading]) -> Bounds:
+    def _modulus_bounds(self, readings: Sequence[MaterialReading]) -> Bounds:
         moduli = [modulus for reading in readings for modulus in reading.moduli]
         low, high = min(moduli), 4.0 * max(moduli)
         bounds: dict[str, Any] = {"E": on_its_scale(0.5 * low, high)}

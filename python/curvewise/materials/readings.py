@@ -22,7 +22,7 @@ from ..curves.several_curves import as_points
 from ..curves.turns import last_cycle, turning_points
 
 __all__ = [
-    "Reading",
+    "MaterialReading",
     "Span",
     "offset_yield",
     "reading_of",
@@ -42,7 +42,7 @@ _HARDLY_MORE = 1.5  # times the wanted points: as many rows are not averaged
 _MOST_STRAIN = 0.5  # beyond it a column of strains is in per cent
 
 
-class Reading(NamedTuple):
+class MaterialReading(NamedTuple):
     """The estimates from one test.
 
     Attributes
@@ -76,7 +76,7 @@ class Span(NamedTuple):
     path: float
 
     @classmethod
-    def of(cls, readings: Sequence[Reading]) -> Span:
+    def of(cls, readings: Sequence[MaterialReading]) -> Span:
         """Return that of some tests."""
         _, yields, stresses, branches, paths = zip(*readings, strict=True)
         return cls(
@@ -92,7 +92,7 @@ def strain_and_stress(experiment: object, name: str) -> Array:
     return points
 
 
-def reading_of(experiment: object, name: str) -> Reading:
+def reading_of(experiment: object, name: str) -> MaterialReading:
     """Return the estimates from one test.
 
     Parameters
@@ -126,7 +126,7 @@ def reading_of(experiment: object, name: str) -> Reading:
     plastic = [abs(float(_plastic(branch, max(moduli))[-1])) for branch in branches]
     if not max(plastic) > 0.01 * np.ptp(points[:, 0]):
         raise ValueError(f"{name} is elastic: nothing of hardening can be read off it")
-    return Reading(
+    return MaterialReading(
         tuple(moduli),
         offset_yield(branches[0], moduli[0], name),
         float(np.abs(points[:, 1]).max()),

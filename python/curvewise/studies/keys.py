@@ -1,9 +1,9 @@
 """The keys of a study file: described fields of dataclasses, with one reader.
 
 A field made by `key`, `key_at` or `table` defines how its value is read, the default for a missing
-or wrong value, and the advice for a missing required key. `Table.read` creates the dataclass of a
-table. It records every wrong key with its line and continues with the default, so that the rest of
-the file is checked too. It refuses undescribed keys.
+or wrong value, and the advice for a missing required key. `StudyTable.read` creates the dataclass
+of a table. It records every wrong key with its line and continues with the default, so that the
+rest of the file is checked too. It refuses undescribed keys.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .._names import did_you_mean
 from .toml_source import KeyPath, Source
 
 __all__ = [
-    "Table",
+    "StudyTable",
     "as_it_is",
     "at_least",
     "choice",
@@ -86,7 +86,7 @@ def described(kind: type) -> dict[str, Mapping[str, Any]]:
     return {name.rstrip("_"): {**how, "field": name} for name, how in found.items()}
 
 
-class Table:
+class StudyTable:
     """One table of a study file.
 
     Parameters

@@ -22,7 +22,7 @@ from ..materials import MATERIALS, DrivenModel, Material
 from ..materials.options import material_options
 from ..solvers.cards import FORMATS
 from . import keys
-from .keys import Table, key
+from .keys import StudyTable, key
 from .measured_tests import MeasuredTest
 from .toml_source import KeyPath, Source
 
@@ -72,7 +72,7 @@ def is_material(given: Any) -> bool:
 
 def read_material(source: Source, path: KeyPath, given: Mapping[str, Any]) -> MaterialModel | None:
     """Return the model, or None where something is wrong."""
-    table = Table(source, path, given)
+    table = StudyTable(source, path, given)
     if "command" in given:
         table.problem("material", "stands beside command; give one of them, a solver or a material")
         return None

@@ -17,8 +17,8 @@ from . import keys
 from .curve_sources import FORMATS, CurveSource, Quantity, format_of
 from .file_keys import said as said_of_file
 from .formulas import Formula, undefined_names
-from .keys import Table, described, key, key_at, table
-from .search_settings import Comparison
+from .keys import StudyTable, described, key, key_at, table
+from .search_settings import ComparisonKeys
 from .solver_models import SolverModel
 from .toml_source import KeyPath, Source
 
@@ -82,7 +82,7 @@ def _output(source: Source, path: KeyPath, values: Any) -> CurveSource | None:
     """Return where a test's simulation is, or None where something is wrong, or nothing given."""
     if values is None:  # for a material, which does not need one
         return None
-    table = Table(source, path, values)
+    table = StudyTable(source, path, values)
     output = table.read(Output)
     chosen = output.format or (format_of(output.file) if output.file else "columns")
     if not chosen:
@@ -96,7 +96,7 @@ def _output(source: Source, path: KeyPath, values: Any) -> CurveSource | None:
 
 
 @dataclass(frozen=True, eq=False)
-class MeasuredTest(Comparison, Columns):
+class MeasuredTest(ComparisonKeys, Columns):
     """A table [[tests]].
 
     Attributes
@@ -135,7 +135,7 @@ class MeasuredTest(Comparison, Columns):
     @property
     def own(self) -> dict[str, Any]:
         """Settings that override those of [search], as arguments of `Case`."""
-        return self.given("sigma", *described(Comparison))
+        return self.given("sigma", *described(ComparisonKeys))
 
 
 def read_test(
@@ -148,7 +148,7 @@ def read_test(
 
     `models` is None where a material takes the place of a solver.
     """
-    table = Table(source, ("tests", index), values)
+    table = StudyTable(source, ("tests", index), values)
     test = table.read(MeasuredTest)
     if ("file" in table.given) == ("number" in table.given):
         table.problem("", "needs a file with a curve, or a number, and not both")
@@ -188,7 +188,7 @@ def read_test(
     )
 
 
-def _check_for_material(table: Table) -> None:
+def _check_for_material(table: StudyTable) -> None:
     """Record keys of a test that are useless if it drives a material."""
     for name, why in (
         ("output", "is about what a solver writes, and [model] has a material"),
@@ -199,7 +199,7 @@ def _check_for_material(table: Table) -> None:
             table.problem(name, why)
 
 
-def _prepared(table: Table, test: MeasuredTest, curve: Array) -> Array | PreparedTest:
+def _prepared(table: StudyTable, test: MeasuredTest, curve: Array) -> Array | PreparedTest:
     """Return a measured curve, prepared as its keys require."""
     given = {name: getattr(test, name) for name in _PREPARATION}
     if test.cycle_column is None and not any(given.values()):
@@ -218,7 +218,7 @@ def _units_of(source: Source) -> str:
     return units if isinstance(units, str) else "MPa"
 
 
-def _check_model(table: Table, models: Mapping[str, SolverModel]) -> None:
+def _check_model(table: StudyTable, models: Mapping[str, SolverModel]) -> None:
     if "model" in table.given:
         try:
             keys.choice(tuple(models))(table.given["model"])
@@ -229,7 +229,7 @@ def _check_model(table: Table, models: Mapping[str, SolverModel]) -> None:
 
 
 def _read_curve(
-    table: Table, test: MeasuredTest
+    table: StudyTable, test: MeasuredTest
 ) -> tuple[Array | PreparedTest, tuple[str, ...]] | None:
     """Return the measured curve and its axes; its file's faults are those of a key."""
     problems = len(table.source.problems)
@@ -250,7 +250,7 @@ def _read_curve(
     return None
 
 
-def _source(table: Table, said: Columns, file: str, format: str) -> CurveSource:
+def _source(table: StudyTable, said: Columns, file: str, format: str) -> CurveSource:
     """Return a file with columns, factors and formulas."""
     given = said.columns
     names: tuple[str, ...] = ()
@@ -285,7 +285,7 @@ def _reading_of(said: Columns) -> Reading:
     return Reading(**{option.name: getattr(said, option.name) for option in READING})
 
 
-def _formulas(table: Table, said: Columns, names: tuple[str, ...]) -> tuple[Formula, ...]:
+def _formulas(table: StudyTable, said: Columns, names: tuple[str, ...]) -> tuple[Formula, ...]:
     """Return x and y, or the value, as formulas of the columns' names."""
     x, y, value = said.x, said.y, said.value
     given = {"x": x, "y": y, "value": value}
@@ -308,7 +308,7 @@ def _formulas(table: Table, said: Columns, names: tuple[str, ...]) -> tuple[Form
 
 
 def _named(
-    table: Table, given: Mapping[str, Any], format: str
+    table: StudyTable, given: Mapping[str, Any], format: str
 ) -> tuple[tuple[str, ...], tuple[Any, ...]]:
     """Return the names of columns, and where they are from."""
     path = (*table.path, "columns")
@@ -329,7 +329,7 @@ def _quantity(source: Source, path: KeyPath, value: Any) -> Quantity:
     """Return one number a time of a solver's output; a text alone is its component."""
     if isinstance(value, str):
         return Quantity(keys.text(value))
-    table = Table(source, path, value)
+    table = StudyTable(source, path, value)
     quantity = table.read(Quantity)
     if quantity.node is not None and quantity.element is not None:
         table.problem("element", "stands beside node; a table has rows of one of them")

@@ -12,7 +12,7 @@ from ..calibration import Below, Log, Tied
 from ..calibration.problem.space import Space
 from . import keys
 from .formulas import Formula, undefined_names
-from .keys import Table, key
+from .keys import StudyTable, key
 from .toml_source import KeyPath, Source
 
 __all__ = ["SearchedParameter", "complete_start", "read_parameters"]
@@ -43,7 +43,7 @@ def read_parameters(source: Source, given: Any) -> tuple[dict[str, Any], dict[st
         return {}, {}
     bounds: dict[str, Any] = {}
     start: dict[str, float] = {}
-    table = Table(source, path, given)
+    table = StudyTable(source, path, given)
     for parameter, value in given.items():
         try:
             keys.name(parameter)
@@ -67,7 +67,7 @@ def _bounds(
         return _pair(value)
     if not isinstance(value, Mapping):
         return keys.number(value)
-    said = Table(source, ("parameters", parameter), value).read(SearchedParameter)
+    said = StudyTable(source, ("parameters", parameter), value).read(SearchedParameter)
     if said.start is not None:
         start[parameter] = said.start
     if said.below and said.scale == "log":

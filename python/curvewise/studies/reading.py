@@ -18,7 +18,7 @@ from ..fitting.driven_tests import fit_method
 from . import keys
 from .contents import Contents
 from .formulas import Formula
-from .keys import Table, key, key_at, table
+from .keys import StudyTable, key, key_at, table
 from .material_models import drive, is_material, read_material
 from .measured_tests import MeasuredTest, read_test
 from .parameters import complete_start, read_parameters
@@ -38,7 +38,7 @@ class ResultsFolder:
 
 
 def _results(source: Source, path: KeyPath, values: Any) -> Path:
-    found = Table(source, path, values).read(ResultsFolder)
+    found = StudyTable(source, path, values).read(ResultsFolder)
     return found.folder or source.folder / f"{source.path.stem}_results"
 
 
@@ -63,7 +63,7 @@ def read_contents(source: Source) -> Contents:
     StudyError
         With all that is wrong in it.
     """
-    file = Table(source, (), source.values).read(StudyFile)
+    file = StudyTable(source, (), source.values).read(StudyFile)
     if is_material(file.model) and file.models is None:
         return _of_material(source, file)
     before = len(source.problems)
@@ -108,7 +108,7 @@ def _models(
         return {}, set()
     tables: dict[str, tuple[KeyPath, Any]] = {"": (("model",), file.model)}
     if file.models is not None:
-        named = Table(source, ("models",), file.models).given
+        named = StudyTable(source, ("models",), file.models).given
         tables = {name: (("models", name), values) for name, values in named.items()}
     models, used = {}, set()
     for name, (path, values) in tables.items():

@@ -12,16 +12,16 @@ from ..calibration.methods import METHODS, method_with
 from ..calibration.methods.method import Method
 from ..measures.registry import PRESETS
 from . import keys
-from .keys import Table, key, key_at
+from .keys import StudyTable, key, key_at
 from .toml_source import KeyPath, Source
 
-__all__ = ["Comparison", "SearchSettings", "read_search"]
+__all__ = ["ComparisonKeys", "SearchSettings", "read_search"]
 
 _FEWEST_SAMPLES = 20
 
 
 @dataclass(frozen=True)
-class Comparison:
+class ComparisonKeys:
     """Settings of the comparison: for all tests, or for one that differs."""
 
     measure: str | None = key(keys.choice(MEASURES))
@@ -74,7 +74,7 @@ def _store(source: Source, path: KeyPath, value: Any) -> Path:
 
 
 @dataclass(frozen=True)
-class SearchSettings(Comparison):
+class SearchSettings(ComparisonKeys):
     """The table [search], with its measure and the start of the parameters.
 
     `measures` includes the measure, and `start` is that of the parameters. The number of noise
@@ -105,7 +105,7 @@ class SearchSettings(Comparison):
 
 def read_search(source: Source, path: KeyPath, values: Any) -> SearchSettings:
     """Return how to search; every key has a default."""
-    table = Table(source, path, values)
+    table = StudyTable(source, path, values)
     search = table.read(SearchSettings)
     if "measure" in table.given and "measures" in table.given:
         table.problem("measures", "stands beside measure; give one of them")

@@ -13,7 +13,7 @@ from ..calibration.models.command import LOG
 from ..calibration.models.templates import read_templates
 from . import keys
 from .formulas import Formula, undefined_names
-from .keys import Table, key, key_at, table
+from .keys import StudyTable, key, key_at, table
 from .study_model import DeckTable, DeckValue
 from .toml_source import KeyPath, Source
 
@@ -60,13 +60,13 @@ class Success:
 def _success(source: Source, path: KeyPath, value: Any) -> tuple[str, str]:
     if isinstance(value, str):
         return LOG, value
-    found = Table(source, path, value).read(Success)
+    found = StudyTable(source, path, value).read(Success)
     return found.file, found.text
 
 
 def _values(source: Source, path: KeyPath, given: Any) -> tuple[DeckValue, ...]:
     """Read the numbers that formulas make for the templates, in their order."""
-    values = Table(source, path, given)
+    values = StudyTable(source, path, given)
     found = []
     for name, value in values.given.items():
         # a placeholder, so that the other checks of an invalid formula continue
@@ -82,9 +82,9 @@ def _values(source: Source, path: KeyPath, given: Any) -> tuple[DeckValue, ...]:
 
 def _tables(source: Source, path: KeyPath, given: Any) -> tuple[DeckTable, ...]:
     """Read the tables of lines that formulas make for the templates."""
-    tables = Table(source, path, given).given
+    tables = StudyTable(source, path, given).given
     return tuple(
-        Table(source, (*path, name), inner).read(DeckTable, name=name)
+        StudyTable(source, (*path, name), inner).read(DeckTable, name=name)
         for name, inner in tables.items()
     )
 
@@ -116,14 +116,14 @@ def read_model(
     source: Source, path: KeyPath, name: str, values: Any, parameters: tuple[str, ...]
 ) -> tuple[SolverModel, set[str]]:
     """Return a model, and the parameters that its templates and formulas use."""
-    given = Table(source, path, values)
+    given = StudyTable(source, path, values)
     model = given.read(SolverModel, name=name)
     _check_formulas(given, model, parameters)
     used = _check_templates(given, model, parameters) if model.templates else set()
     return model, used | {use for value in model.made for use in value.uses}
 
 
-def _check_formulas(given: Table, model: SolverModel, parameters: tuple[str, ...]) -> None:
+def _check_formulas(given: StudyTable, model: SolverModel, parameters: tuple[str, ...]) -> None:
     """Note the names in formulas that have no value, and those that are there twice."""
     known = [*parameters]
     for value in model.values:
@@ -142,7 +142,9 @@ def _check_formulas(given: Table, model: SolverModel, parameters: tuple[str, ...
             given.source.problem(place, "is called as a parameter or a value is; rename one")
 
 
-def _check_templates(given: Table, model: SolverModel, parameters: tuple[str, ...]) -> set[str]:
+def _check_templates(
+    given: StudyTable, model: SolverModel, parameters: tuple[str, ...]
+) -> set[str]:
     """Return the placeholders of the templates; note those that nothing gives a value."""
     try:
         read = read_templates(model.templates, LOG)

@@ -41,7 +41,7 @@ from .noise import Noise
 from .sensitivity import Optimum, vectors_at
 from .spread import Spread, spread_of
 
-__all__ = ["End", "followed_spread"]
+__all__ = ["IntervalEnd", "followed_spread"]
 
 _MOST = 15  # runs for an end
 _FURTHEST, _NEAREST = 0.3, 1e-3  # steps, in parts of the bounds' ranges
@@ -59,7 +59,7 @@ def followed_spread(optimum: Optimum, noise: Noise, level: float) -> tuple[Sprea
     squares = widths**2 / np.diag(estimate.inverse)
     slopes = _compared_slopes(estimate, optimum)
     ends = [
-        End(optimum.unit, slopes, index, way, float(square))
+        IntervalEnd(optimum.unit, slopes, index, way, float(square))
         for index, square in enumerate(squares)
         for way in (-1.0, 1.0)
     ]
@@ -77,7 +77,7 @@ def _compared_slopes(estimate: Estimate, optimum: Optimum) -> Array:
     return np.column_stack([estimate.compared(one) for one in optimum.slopes])
 
 
-def _follow(ends: Sequence[End], optimum: Optimum, estimate: Estimate) -> int:
+def _follow(ends: Sequence[IntervalEnd], optimum: Optimum, estimate: Estimate) -> int:
     """Compute all ends in parallel; return the number of runs, new or stored."""
     fitted = estimate.compared(optimum.curves(optimum.unit))
     with optimum.execution.simulator(optimum.problem.model) as simulator:
@@ -105,7 +105,7 @@ def _run(optimum: Optimum, simulator: Simulator, places: Sequence[Array]) -> lis
     return found
 
 
-class End:
+class IntervalEnd:
     """One end of one interval, during its computation.
 
     Parameters
