@@ -1,4 +1,4 @@
-// How fast the sweep is without Python: cells per second of every recurrence and ground distance,
+// How fast the sweep is without Python: cells per second of every rule and ground distance,
 // at every instruction-set level of this machine, and microseconds of the other measures. The
 // levels take turns, sample by sample, so that a machine that drifts drifts for all; medians.
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 using curvewise::CurveView;
 using curvewise::GroundDistance;
 using curvewise::Metric;
-using curvewise::kernels::Recurrence;
+using curvewise::kernels::Rule;
 namespace curves = curvewise::curves;
 namespace runtime = curvewise::runtime;
 namespace warping = curvewise::warping;
@@ -65,8 +65,7 @@ std::vector<double> medians(const std::vector<std::function<void()>>& calls) {
     return result;
 }
 
-void time_sweep(const char* name, Recurrence recurrence, Metric metric, std::ptrdiff_t dim,
-                std::ptrdiff_t n) {
+void time_sweep(const char* name, Rule rule, Metric metric, std::ptrdiff_t dim, std::ptrdiff_t n) {
     const std::vector<double> p = random_walk(n, dim, 1), q = random_walk(n, dim, 2);
     const CurveView P(p.data(), n, dim), Q(q.data(), n, dim);
     const std::vector<warping::Level> levels = warping::available_levels();
@@ -83,7 +82,7 @@ void time_sweep(const char* name, Recurrence recurrence, Metric metric, std::ptr
             const GroundDistance ground{metric};
             const warping::SweepProblem problem{*level.kernels,
                                                 curves,
-                                                recurrence,
+                                                rule,
                                                 warping::canonical_cost(ground, curves),
                                                 2.0,
                                                 warping::Band(n, n, std::nullopt),
@@ -120,12 +119,12 @@ int main() {
     std::printf("time of a call in us, and 10^9 cells per second\n");
     for (const std::ptrdiff_t n : {20, 100, 300, 1000, 4000}) {
         for (const std::ptrdiff_t dim : {1, 2, 3, 7}) {
-            time_sweep("dtw euclidean", Recurrence::dtw_symmetric1, Metric::euclidean, dim, n);
+            time_sweep("dtw euclidean", Rule::dtw_symmetric1, Metric::euclidean, dim, n);
         }
-        time_sweep("dtw symmetric2", Recurrence::dtw_symmetric2, Metric::euclidean, 2, n);
-        time_sweep("dtw sqeuclidean", Recurrence::dtw_symmetric1, Metric::sqeuclidean, 2, n);
-        time_sweep("dtw cityblock", Recurrence::dtw_symmetric1, Metric::cityblock, 2, n);
-        time_sweep("frechet (on squares)", Recurrence::frechet, Metric::sqeuclidean, 2, n);
+        time_sweep("dtw symmetric2", Rule::dtw_symmetric2, Metric::euclidean, 2, n);
+        time_sweep("dtw sqeuclidean", Rule::dtw_symmetric1, Metric::sqeuclidean, 2, n);
+        time_sweep("dtw cityblock", Rule::dtw_symmetric1, Metric::cityblock, 2, n);
+        time_sweep("frechet (on squares)", Rule::frechet, Metric::sqeuclidean, 2, n);
     }
     time_planar();
     return 0;

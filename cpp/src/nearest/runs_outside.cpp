@@ -7,6 +7,7 @@
 #include "curvewise/subsequence.hpp"
 #include "runtime/aligned_buffer.hpp"
 #include "warping/dispatch.hpp"
+#include "warping/ground_distance.hpp"
 
 namespace curvewise {
 
@@ -18,8 +19,7 @@ RunsOutside runs_outside(const CurveView& low, const CurveView& high, const Curv
                                     curves::shape_of(high) + " and " + curves::shape_of(Q) +
                                     "; give the corners of one box or more, in Q's dimensions");
     }
-    const bool is_degree_one = metric != Metric::sqeuclidean && metric != Metric::haversine;
-    if (dim == 1 && is_degree_one) metric = Metric::cityblock;  // |difference|
+    if (dim == 1) metric = warping::canonical_metric({metric}, dim);
     const kernels::RunFunction find =
         warping::active_level().kernels->runs(metric, dim, of_largest);
     if (find == nullptr) {

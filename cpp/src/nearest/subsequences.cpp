@@ -74,7 +74,7 @@ class SubsequenceSearch {
           poller_(poller),
           problem_{*warping::active_level().kernels,
                    curves,
-                   options.recurrence,
+                   options.rule,
                    warping::canonical_cost(options.ground, curves),
                    options.ground.parameter(),
                    warping::Band(curves.rows(), curves.columns(), std::nullopt),
@@ -83,7 +83,7 @@ class SubsequenceSearch {
                    poller,
                    memory_},
           least_(curves.columns()) {
-        if (options.recurrence == kernels::Recurrence::frechet) {
+        if (options.rule == kernels::Rule::frechet) {
             root_ = warping::put_off_root(problem_.cost, options.ground);
         }
     }

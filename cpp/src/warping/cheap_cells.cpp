@@ -28,7 +28,7 @@ class Walks {
           last_column_(problem.curves.columns() - 1),
           p_(problem.curves.p, PointOrder::forward),
           q_(problem.curves.q, PointOrder::reversed),
-          diagonal_weight_(problem.recurrence == kernels::Recurrence::dtw_symmetric2 ? 2.0 : 1.0) {}
+          diagonal_weight_(problem.rule == kernels::Rule::dtw_symmetric2 ? 2.0 : 1.0) {}
 
     // The cost of the cheaper of the two paths.
     double least() const noexcept {

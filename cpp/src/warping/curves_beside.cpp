@@ -20,13 +20,13 @@ kernels::Cost cost_of(const WarpingOptions& options, std::ptrdiff_t dim, bool in
 struct Sweep {
     Sweep(const WarpingOptions& options, std::ptrdiff_t dim, bool in_domain) noexcept {
         kernels::Cost cost = cost_of(options, dim, in_domain);
-        if (options.recurrence == kernels::Recurrence::frechet && !cost.is_own) {
+        if (options.rule == kernels::Rule::frechet && !cost.is_own) {
             root = put_off_root(cost, options.ground);
         }
-        if (options.open_begin || options.open_end || options.ground.metric == Metric::haversine) {
+        if (options.open_begin || options.open_end || takes_degrees(options.ground.metric)) {
             return;
         }
-        functions = active_level().kernels->beside(options.recurrence, cost, dim);
+        functions = active_level().kernels->beside(options.rule, cost, dim);
     }
 
     PutOffRoot root;
@@ -86,7 +86,7 @@ std::ptrdiff_t cells_of_row(const Window& window, std::ptrdiff_t n, std::ptrdiff
 // Whether so many pairs of n and m points take less time together than one by one.
 bool saves_time(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m,
                 std::ptrdiff_t dim, std::ptrdiff_t pairs) noexcept {
-    const bool has_roots = options.recurrence != kernels::Recurrence::frechet &&
+    const bool has_roots = options.rule != kernels::Rule::frechet &&
                            canonical_metric(options.ground, dim) == Metric::euclidean;
     const std::ptrdiff_t most = has_roots ? most_cells_of_roots : most_cells;
     return m <= most_columns && cells_of_row(options.window, n, m) * lanes_beside() <= most * pairs;
@@ -276,7 +276,7 @@ std::ptrdiff_t CurvesBeside::candidates(const WarpingOptions& options, double cu
     enclose(options, curve.packed, beside);
     sweep.functions.bounds(beside);
     // Sums in another order than the table's have a slack, the largest of some distances has none.
-    const bool is_sum = options.recurrence != kernels::Recurrence::frechet;
+    const bool is_sum = options.rule != kernels::Rule::frechet;
     const double slack = is_sum ? CostSums::slack(n, columns_) : 1.0;
     std::ptrdiff_t found = 0;
     std::int64_t points = 0;  // of the others

@@ -54,7 +54,7 @@ double last_value(const SweepProblem& problem, bool open_end) {
 CostSums cost_bounds(const SweepProblem& problem, bool open_end) {
     CostSums sums;
     sums.assign(problem.curves.rows(), problem.curves.columns(),
-                problem.recurrence == kernels::Recurrence::dtw_symmetric2);
+                problem.rule == kernels::Rule::dtw_symmetric2);
     const BoxTree P(problem.curves.p, PointOrder::forward);
     const BoxTree Q(problem.curves.q, PointOrder::reversed);
     const Metric metric = metric_of_boxes(problem.cost.metric);
@@ -77,9 +77,8 @@ class CoarseProblem {
           q_points_(decimated(fine.curves.q, PointOrder::reversed, decimation)),
           p_(view(p_points_, fine), RangeScale(1.0), PointOrder::forward, fine.poller),
           q_(view(q_points_, fine), RangeScale(1.0), PointOrder::reversed, fine.poller),
-          problem_{fine.kernels,          {p_, q_},      fine.recurrence, fine.cost,
-                   fine.metric_parameter, columns(fine), false,           1,
-                   fine.poller,           fine.memory} {}
+          problem_{fine.kernels,  {p_, q_}, fine.rule, fine.cost,   fine.metric_parameter,
+                   columns(fine), false,    1,         fine.poller, fine.memory} {}
 
     SweepProblem& problem() noexcept { return problem_; }
 

@@ -39,7 +39,7 @@ class FirstBounds {
     void finish(double* bounds, std::ptrdiff_t count) const noexcept;
 
    private:
-    bool is_frechet() const noexcept { return options_.recurrence == kernels::Recurrence::frechet; }
+    bool is_frechet() const noexcept { return options_.rule == kernels::Rule::frechet; }
     bool is_open() const noexcept { return options_.open_begin || options_.open_end; }
     // Of a curve that has bounds.
     template <class Norm>

@@ -44,7 +44,7 @@ double decimated_distance(const SweepProblem& problem, std::ptrdiff_t step) {
     SweepMemory memory;
     const SweepProblem small{problem.kernels,
                              {p, q},
-                             problem.recurrence,
+                             problem.rule,
                              problem.cost,
                              problem.metric_parameter,
                              Band(p.size(), q.size(), std::nullopt),

@@ -59,6 +59,11 @@ inline constexpr std::ptrdiff_t max_own_distances = std::ptrdiff_t{1} << 21;
 // metric inside the arc function. The kernels' arcs() then turn these into bounds.
 Metric metric_of_boxes(Metric metric) noexcept;
 
+// Whether points are longitudes and latitudes.
+inline bool takes_degrees(Metric metric) noexcept {
+    return with_row(metric, [](auto row) { return decltype(row)::takes_degrees; });
+}
+
 // Whether with_norm() calls, of metric_of_boxes().
 bool has_box_bounds(Metric metric) noexcept;
 
@@ -113,7 +118,7 @@ double coordinate_on_sphere(double x, std::ptrdiff_t c) noexcept;
 // The requirements on every curve of such a measure.
 inline curves::Requirements requirements(const char* measure,
                                          const GroundDistance& ground) noexcept {
-    return {measure, 1, false, ground.metric == Metric::haversine};
+    return {measure, 1, false, takes_degrees(ground.metric)};
 }
 
 // If both curves are multiplied by a factor, the distance is multiplied by this power of the

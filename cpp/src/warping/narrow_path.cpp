@@ -108,7 +108,7 @@ double cost_of(const SweepProblem& problem, const IndexPairs& path) noexcept {
 }  // namespace
 
 bool has_narrow_path(const SweepProblem& problem) noexcept {
-    return problem.recurrence == kernels::Recurrence::dtw_symmetric1 &&
+    return problem.rule == kernels::Rule::dtw_symmetric1 &&
            problem.cost.metric == Metric::cityblock && problem.curves.dim() == 2;
 }
 

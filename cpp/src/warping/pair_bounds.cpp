@@ -128,7 +128,7 @@ double PairBounds::combined(double rows, double columns, double first_row,
 // Whether differences add up to at most the difference between the ends, so that rounding changes
 // each by a few units in its last place. No square of a difference is too small for that.
 bool PairBounds::has_ways_through(const PackedCurve& q) const noexcept {
-    return options_.recurrence == kernels::Recurrence::dtw_symmetric1 &&
+    return options_.rule == kernels::Rule::dtw_symmetric1 &&
            (metric_ != Metric::sqeuclidean || PackedPair{P_, q}.squares_are_in_domain());
 }
 
@@ -312,7 +312,7 @@ std::optional<CostToGo> PairBounds::cost_to_go(std::ptrdiff_t j, const PackedCur
 }
 
 bool PairBounds::is_of_lines() const noexcept {
-    return is_line() && !is_open() && options_.recurrence == kernels::Recurrence::dtw_symmetric1;
+    return is_line() && !is_open() && options_.rule == kernels::Rule::dtw_symmetric1;
 }
 
 double PairBounds::line_value(const PackedCurve& q, const CostToGo& cost_to_go) {

@@ -98,7 +98,7 @@ class PairBounds {
     bool is_bounded(std::ptrdiff_t j) const noexcept {
         return first_.is_bounded(kept_[j].largest());
     }
-    bool is_frechet() const noexcept { return options_.recurrence == kernels::Recurrence::frechet; }
+    bool is_frechet() const noexcept { return options_.rule == kernels::Rule::frechet; }
     bool is_open() const noexcept { return options_.open_begin || options_.open_end; }
     template <class Norm>
     double run_bound(std::ptrdiff_t j, int level);
@@ -111,9 +111,7 @@ class PairBounds {
         return is_line() && (options_.window.radius || options_.window.fraction);
     }
     BoxLevel point_level_boxes() const noexcept;
-    bool is_symmetric2() const noexcept {
-        return options_.recurrence == kernels::Recurrence::dtw_symmetric2;
-    }
+    bool is_symmetric2() const noexcept { return options_.rule == kernels::Rule::dtw_symmetric2; }
     bool has_ways_through(const PackedCurve& q) const noexcept;
     void compute_row_terms(std::ptrdiff_t j, const PackedCurve& q);
     // In one dimension, within a band and without open ends.

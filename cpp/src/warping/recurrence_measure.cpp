@@ -140,7 +140,7 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         curves::check_limit("cutoff", recurrence_.cutoff, may_be_negative());
         window().check();
         check_number("gap", recurrence_.gap);
-        if (recurrence_.ground.metric == Metric::haversine) check_on_sphere();
+        if (warping::takes_degrees(recurrence_.ground.metric)) check_on_sphere();
         check_number("steepness", recurrence_.steepness);
     }
     curves::Requirements requirements() const noexcept {

@@ -158,7 +158,7 @@ void RecurrenceSweep::prepare_gaps(double gap, double* rows, double* columns) {
     const double* const p = whole_.ground.p;
     const double* const q = whole_.ground.q;
     if (recurrence_.gaps == Gaps::to_point) {
-        const bool is_on_sphere = recurrence_.ground.metric == Metric::haversine;
+        const bool is_on_sphere = takes_degrees(recurrence_.ground.metric);
         const std::ptrdiff_t lanes = std::max(n, m) + kernels::padding;
         runtime::ScratchVector<double> point(
             static_cast<std::size_t>(is_on_sphere ? strip.dim * lanes : lanes), gap);

@@ -36,8 +36,7 @@ kernels::AdvanceFunction resident_advance(const SweepProblem& problem, const Reg
         problem.columns.cost_to_go() != nullptr || shorter_side < kernels::resident_rows) {
         return nullptr;
     }
-    return problem.kernels.resident(problem.recurrence, problem.cost, problem.curves.dim(),
-                                    shorter_side);
+    return problem.kernels.resident(problem.rule, problem.cost, problem.curves.dim(), shorter_side);
 }
 
 std::ptrdiff_t strip_height(const SweepProblem& problem, const Region& region,
@@ -95,7 +94,7 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, 
       lane_stride_(AlignedBuffer::rounded(plan.height_ + 2 + kernels::padding)),
       advance_(plan.resident_ != nullptr
                    ? plan.resident_
-                   : plan.problem_->kernels.advance(plan.problem_->recurrence, plan.problem_->cost,
+                   : plan.problem_->kernels.advance(plan.problem_->rule, plan.problem_->cost,
                                                     plan.problem_->curves.dim(), plan.output_)),
       fill_(plan.problem_->kernels.fill(plan.problem_->cost)) {
     const std::ptrdiff_t gap = plan.workers_ > 1 ? gap_between_threads : 0;

@@ -61,7 +61,7 @@ struct SweepMemory {
 struct SweepProblem {
     const kernels::KernelSet& kernels;
     PackedPair curves;
-    kernels::Recurrence recurrence;
+    kernels::Rule rule;
     kernels::Cost cost;
     double metric_parameter;
     LiveColumns columns;

@@ -221,6 +221,30 @@ void table(const WarpingMeasure& measure, const CurveView& P, const CurveView& Q
         });
 }
 
+// Calls swept(measure) if dtw's own sweep has the options, else interpreted().
+template <class Swept, class Interpreted>
+auto as_swept(const DtwOptions& options, Swept swept, Interpreted interpreted) {
+    if (warping::is_swept_by_dtw(options)) return swept(WarpingMeasure(options));
+    return interpreted();
+}
+
+// The value of a recurrence, whose band is filled as a whole.
+WarpingInfo info_of_recurrence(const DtwOptions& options, const CurveView& P, const CurveView& Q,
+                               Control* control) {
+    runtime::Stopwatch all;
+    WarpingInfo info;
+    info.value = warp(warping::recurrence_of(options), P, Q, control);
+    const Band band(P.size(), Q.size(),
+                    Window{options.window, options.window_fraction}.between(P.size(), Q.size()));
+    for (std::ptrdiff_t i = 0; i < P.size(); ++i) {
+        info.cells_swept += band.columns(i).last - band.columns(i).first + 1;
+    }
+    info.share = static_cast<double>(info.cells_swept) /
+                 (static_cast<double>(P.size()) * static_cast<double>(Q.size()));
+    info.phases.push_back({"all", all.lap()});
+    return info;
+}
+
 }  // namespace
 
 bool DtwOptions::is_symmetric() const {
@@ -229,10 +253,10 @@ bool DtwOptions::is_symmetric() const {
 }
 
 double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options, Control* control) {
-    if (!warping::is_swept_by_dtw(options)) {
-        return warp(warping::recurrence_of(options), P, Q, control);
-    }
-    return pairwise::evaluate(WarpingMeasure(options), P, Q, control);
+    return as_swept(
+        options,
+        [&](const WarpingMeasure& measure) { return pairwise::evaluate(measure, P, Q, control); },
+        [&] { return warp(warping::recurrence_of(options), P, Q, control); });
 }
 
 double frechet(const CurveView& P, const CurveView& Q, const FrechetOptions& options,
@@ -242,10 +266,9 @@ double frechet(const CurveView& P, const CurveView& Q, const FrechetOptions& opt
 
 Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& options,
                    Control* control) {
-    if (!warping::is_swept_by_dtw(options)) {
-        return warp_path(warping::recurrence_of_path(options), P, Q, control);
-    }
-    return path(WarpingMeasure(options), P, Q, control);
+    return as_swept(
+        options, [&](const WarpingMeasure& measure) { return path(measure, P, Q, control); },
+        [&] { return warp_path(warping::recurrence_of_path(options), P, Q, control); });
 }
 
 Alignment frechet_path(const CurveView& P, const CurveView& Q, const FrechetOptions& options,
@@ -255,22 +278,9 @@ Alignment frechet_path(const CurveView& P, const CurveView& Q, const FrechetOpti
 
 WarpingInfo dtw_info(const CurveView& P, const CurveView& Q, const DtwOptions& options,
                      Control* control) {
-    if (!warping::is_swept_by_dtw(options)) {
-        runtime::Stopwatch all;
-        WarpingInfo info;
-        info.value = dtw(P, Q, options, control);
-        const Band band(
-            P.size(), Q.size(),
-            Window{options.window, options.window_fraction}.between(P.size(), Q.size()));
-        for (std::ptrdiff_t i = 0; i < P.size(); ++i) {
-            info.cells_swept += band.columns(i).last - band.columns(i).first + 1;
-        }
-        info.share = static_cast<double>(info.cells_swept) /
-                     (static_cast<double>(P.size()) * static_cast<double>(Q.size()));
-        info.phases.push_back({"all", all.lap()});
-        return info;
-    }
-    return info(WarpingMeasure(options), P, Q, control);
+    return as_swept(
+        options, [&](const WarpingMeasure& measure) { return info(measure, P, Q, control); },
+        [&] { return info_of_recurrence(options, P, Q, control); });
 }
 
 WarpingInfo frechet_info(const CurveView& P, const CurveView& Q, const FrechetOptions& options,
@@ -280,10 +290,9 @@ WarpingInfo frechet_info(const CurveView& P, const CurveView& Q, const FrechetOp
 
 void dtw_table(const CurveView& P, const CurveView& Q, double* out, const DtwOptions& options,
                Control* control) {
-    if (!warping::is_swept_by_dtw(options)) {
-        return warp_table(warping::recurrence_of_path(options), P, Q, out, control);
-    }
-    table(WarpingMeasure(options), P, Q, out, control);
+    as_swept(
+        options, [&](const WarpingMeasure& measure) { table(measure, P, Q, out, control); },
+        [&] { warp_table(warping::recurrence_of_path(options), P, Q, out, control); });
 }
 
 void frechet_table(const CurveView& P, const CurveView& Q, double* out,
@@ -293,8 +302,13 @@ void frechet_table(const CurveView& P, const CurveView& Q, double* out,
 
 std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(const DtwOptions& options) {
     warping::refuse_own_distances(options.ground);
-    if (!warping::is_swept_by_dtw(options)) return batch_measure(warping::recurrence_of(options));
-    return std::make_unique<BatchOf<WarpingMeasure>>(WarpingMeasure(options));
+    using Batch = std::unique_ptr<const BatchMeasure>;
+    return as_swept(
+        options,
+        [](WarpingMeasure measure) -> Batch {
+            return std::make_unique<BatchOf<WarpingMeasure>>(std::move(measure));
+        },
+        [&]() -> Batch { return batch_measure(warping::recurrence_of(options)); });
 }
 
 std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(

@@ -52,24 +52,23 @@ WarpingOptions checked_options(const DtwOptions& options) {
         throw std::invalid_argument(
             "normalize needs step_pattern='symmetric2', whose paths all have the weight n + m");
     }
-    return {
-        DtwOptions::measure,
-        is_symmetric1 ? kernels::Recurrence::dtw_symmetric1 : kernels::Recurrence::dtw_symmetric2,
-        options.ground,
-        workers_for(options.ground, options.workers),
-        options.prune && options.ground.own == nullptr,
-        options.cutoff,
-        window,
-        options.open_begin,
-        options.open_end,
-        options.normalize};
+    return {DtwOptions::measure,
+            is_symmetric1 ? kernels::Rule::dtw_symmetric1 : kernels::Rule::dtw_symmetric2,
+            options.ground,
+            workers_for(options.ground, options.workers),
+            options.prune && options.ground.own == nullptr,
+            options.cutoff,
+            window,
+            options.open_begin,
+            options.open_end,
+            options.normalize};
 }
 
 WarpingOptions checked_options(const FrechetOptions& options) {
     check_ground_distance(options.ground);
     curves::check_limit("cutoff", options.cutoff, false);
     return {FrechetOptions::measure,
-            kernels::Recurrence::frechet,
+            kernels::Rule::frechet,
             options.ground,
             workers_for(options.ground, options.workers),
             options.prune && options.ground.own == nullptr,
@@ -83,7 +82,7 @@ WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& 
       prune_(options.prune),
       sweep_{*active_level().kernels,
              curves,
-             options.recurrence,
+             options.rule,
              canonical_cost(options.ground, curves),
              options.ground.parameter(),
              Band(curves.rows(), curves.columns(),

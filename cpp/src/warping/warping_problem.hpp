@@ -28,7 +28,7 @@ namespace curvewise::warping {
 // The options of either measure, as the sweep takes them, checked.
 struct WarpingOptions {
     const char* measure;
-    kernels::Recurrence recurrence;
+    kernels::Rule rule;
     GroundDistance ground;
     std::ptrdiff_t workers;
     bool prune = false;
@@ -71,7 +71,7 @@ class WarpingProblem {
     std::optional<double> frechet_with_info(WarpingInfo& info) const;
     std::optional<double> dtw_with_info(WarpingInfo& info) const;
     double restore(double value) const noexcept { return range_.restore(root_(value), degree_); }
-    bool is_frechet() const noexcept { return sweep_.recurrence == kernels::Recurrence::frechet; }
+    bool is_frechet() const noexcept { return sweep_.rule == kernels::Rule::frechet; }
     double last_value(const SweepProblem& problem) const;
     std::optional<double> pruned_value() const;
     std::optional<Path> pruned_path() const;

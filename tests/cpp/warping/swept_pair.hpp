@@ -15,7 +15,7 @@ namespace test {
 using curvewise::GroundDistance;
 using curvewise::curves::RangeScale;
 using curvewise::kernels::Cost;
-using curvewise::kernels::Recurrence;
+using curvewise::kernels::Rule;
 using curvewise::runtime::Poller;
 using curvewise::warping::Band;
 using curvewise::warping::Level;
@@ -31,16 +31,16 @@ class SweptPair {
           q_(Q, RangeScale(1.0), PointOrder::reversed, unpolled) {}
 
     // In one thread and without a window. Valid until the next one, whose memory is the same.
-    SweepProblem problem(const Level& level, Recurrence recurrence, const Cost& cost,
+    SweepProblem problem(const Level& level, Rule rule, const Cost& cost,
                          Poller& poller = unpolled) {
         memory_ = {};
-        return {*level.kernels, {p_, q_}, recurrence, cost, 2.0, band(), false, 1, poller, memory_};
+        return {*level.kernels, {p_, q_}, rule, cost, 2.0, band(), false, 1, poller, memory_};
     }
     // With the cost that the library uses for a ground distance.
-    SweepProblem problem(const Level& level, Recurrence recurrence,
-                         const GroundDistance& ground = {}, Poller& poller = unpolled) {
-        SweepProblem found = problem(level, recurrence,
-                                     curvewise::warping::canonical_cost(ground, {p_, q_}), poller);
+    SweepProblem problem(const Level& level, Rule rule, const GroundDistance& ground = {},
+                         Poller& poller = unpolled) {
+        SweepProblem found =
+            problem(level, rule, curvewise::warping::canonical_cost(ground, {p_, q_}), poller);
         found.metric_parameter = ground.parameter();
         return found;
     }

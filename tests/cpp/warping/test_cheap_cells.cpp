@@ -19,7 +19,7 @@ namespace {
 
 using curvewise::GroundDistance;
 using curvewise::Metric;
-using curvewise::kernels::Recurrence;
+using curvewise::kernels::Rule;
 using curvewise::warping::available_levels;
 using curvewise::warping::find_path;
 using curvewise::warping::find_path_of_cheap_cells;
@@ -40,14 +40,13 @@ Metric any_norm(Random& random) {
     return metric;
 }
 
-void compare(const Curve& P, const Curve& Q, Metric metric, Recurrence recurrence, bool open_end) {
-    const check::Note note(test::described(P, Q) + ", " + oracle::name(metric) + ", recurrence " +
-                           std::to_string(static_cast<int>(recurrence)) +
-                           (open_end ? ", open end" : ""));
+void compare(const Curve& P, const Curve& Q, Metric metric, Rule rule, bool open_end) {
+    const check::Note note(test::described(P, Q) + ", " + oracle::name(metric) + ", rule " +
+                           std::to_string(static_cast<int>(rule)) + (open_end ? ", open end" : ""));
     SweptPair curves(P, Q);
     for (const Level& level : available_levels()) {
         const check::Note at_level(level.name);
-        const SweepProblem problem = curves.problem(level, recurrence, GroundDistance{metric});
+        const SweepProblem problem = curves.problem(level, rule, GroundDistance{metric});
         const Path full = find_path(problem, open_end);
         const std::optional<Path> path = find_path_of_cheap_cells(problem, open_end);
         if (!path) return check::fail({__FILE__, __LINE__, "cheap cells"}, "returns nothing");
@@ -65,8 +64,7 @@ void random_pairs() {
         const Curve Q = k % 8 == 0   ? test::with_plateaus(P, 40, random)
                         : k % 3 == 0 ? test::any_curve(m, P.dim(), random)
                                      : test::alike(P, m, random);
-        compare(P, Q, any_norm(random),
-                symmetric2 ? Recurrence::dtw_symmetric2 : Recurrence::dtw_symmetric1,
+        compare(P, Q, any_norm(random), symmetric2 ? Rule::dtw_symmetric2 : Rule::dtw_symmetric1,
                 !symmetric2 && random.index(4) == 0);
     }
 }
@@ -80,7 +78,7 @@ void random_pairs_in_narrow_tables() {
         const Curve Q = k % 8 == 0   ? test::with_plateaus(P, 40, random)
                         : k % 3 == 0 ? test::any_curve(m, 2, random)
                                      : test::alike(P, m, random);
-        compare(P, Q, Metric::cityblock, Recurrence::dtw_symmetric1, false);
+        compare(P, Q, Metric::cityblock, Rule::dtw_symmetric1, false);
     }
 }
 
@@ -89,7 +87,7 @@ void returns_nothing_where_the_full_sweep_is_as_fast() {
     const auto finds = [&](std::ptrdiff_t n, std::ptrdiff_t m, auto change) {
         const Curve P = test::loops(n, 2, 2.0, 0.0, false), Q = test::loops(m, 2, 2.0, 0.0, false);
         SweptPair curves(P, Q);
-        SweepProblem problem = curves.problem(level, Recurrence::dtw_symmetric1);
+        SweepProblem problem = curves.problem(level, Rule::dtw_symmetric1);
         change(problem, curves);
         return find_path_of_cheap_cells(problem, false).has_value();
     };

@@ -28,7 +28,7 @@ namespace {
 using curvewise::GroundDistance;
 using curvewise::Metric;
 using curvewise::curves::RangeScale;
-using curvewise::kernels::Recurrence;
+using curvewise::kernels::Rule;
 using curvewise::runtime::Poller;
 using curvewise::warping::available_levels;
 using curvewise::warping::DtwPruningOptions;
@@ -58,7 +58,7 @@ Metric any_bounded_metric(Random& random) {
 
 struct Setup {
     Metric metric = Metric::euclidean;
-    Recurrence recurrence = Recurrence::dtw_symmetric1;
+    Rule rule = Rule::dtw_symmetric1;
     std::optional<std::ptrdiff_t> window;
     DtwPruningOptions options;
     std::ptrdiff_t workers = 1;
@@ -67,10 +67,10 @@ struct Setup {
 Setup any_setup(const test::Pair& pair, Random& random) {
     Setup setup;
     setup.metric = any_bounded_metric(random);
-    if (random.index(2) == 0) setup.recurrence = Recurrence::dtw_symmetric2;
+    if (random.index(2) == 0) setup.rule = Rule::dtw_symmetric2;
     if (random.index(4) == 0) {
         setup.window = 1 + random.index(std::max(pair.P.size(), pair.Q.size()));
-    } else if (setup.recurrence == Recurrence::dtw_symmetric1) {
+    } else if (setup.rule == Rule::dtw_symmetric1) {
         setup.options.open_end = random.index(4) == 0;
     }
     setup.options.gives_up = false;
@@ -81,8 +81,8 @@ Setup any_setup(const test::Pair& pair, Random& random) {
 }
 
 std::string described(const test::Pair& pair, const Setup& setup) {
-    return test::described(pair.P, pair.Q) + ", " + oracle::name(setup.metric) + ", recurrence " +
-           std::to_string(static_cast<int>(setup.recurrence)) + ", window " +
+    return test::described(pair.P, pair.Q) + ", " + oracle::name(setup.metric) + ", rule " +
+           std::to_string(static_cast<int>(setup.rule)) + ", window " +
            (setup.window ? std::to_string(*setup.window) : "none") +
            (setup.options.open_end ? ", open end" : "") + ", decimation " +
            std::to_string(setup.options.decimation) + ", coarse cells " +
@@ -99,7 +99,7 @@ class Comparison {
         for (const Level& level : available_levels()) {
             const check::Note note(level.name);
             SweepProblem problem =
-                curves_.problem(level, setup_.recurrence, GroundDistance{setup_.metric});
+                curves_.problem(level, setup_.rule, GroundDistance{setup_.metric});
             problem.columns = curves_.band(setup_.window);
             problem.workers = setup_.workers;
             problem.cells_per_worker = 1;
@@ -243,7 +243,7 @@ void gives_up_where_it_should() {
     const auto gives_up = [](const Curve& P, const Curve& Q) {
         SweptPair curves(P, Q);
         const SweepProblem problem =
-            curves.problem(available_levels().front(), Recurrence::dtw_symmetric1);
+            curves.problem(available_levels().front(), Rule::dtw_symmetric1);
         DtwPruningRecord record;
         return !dtw_pruned(problem, {}, record).has_value();
     };
@@ -264,8 +264,8 @@ void progress_counts_the_table() {
     Poller poller(&control);
     poller.begin(P.size() * Q.size());
     SweptPair curves(P, Q);
-    const SweepProblem problem = curves.problem(
-        available_levels().back(), Recurrence::dtw_symmetric1, GroundDistance{}, poller);
+    const SweepProblem problem =
+        curves.problem(available_levels().back(), Rule::dtw_symmetric1, GroundDistance{}, poller);
     DtwPruningRecord record;
     CHECK(dtw_pruned(problem, {}, record).has_value());
     poller.poll();

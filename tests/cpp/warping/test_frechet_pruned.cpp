@@ -25,7 +25,7 @@ namespace {
 
 using curvewise::Metric;
 using curvewise::kernels::Cost;
-using curvewise::kernels::Recurrence;
+using curvewise::kernels::Rule;
 using curvewise::runtime::Poller;
 using curvewise::warping::available_levels;
 using curvewise::warping::Band;
@@ -75,7 +75,7 @@ class Comparison {
 
    private:
     SweepProblem problem_of(const Level& level, Metric metric) {
-        return curves_.problem(level, Recurrence::frechet, Cost{metric, false});
+        return curves_.problem(level, Rule::frechet, Cost{metric, false});
     }
 
     static double compare_values(const SweepProblem& problem) {
@@ -284,7 +284,7 @@ void steps_are_counted_once() {
         Poller poller(&control);
         poller.begin(cells);
         SweptPair curves(P, Q);
-        const SweepProblem problem = curves.problem(available_levels().back(), Recurrence::frechet,
+        const SweepProblem problem = curves.problem(available_levels().back(), Rule::frechet,
                                                     Cost{Metric::sqeuclidean, false}, poller);
         PruningRecord record;
         const bool is_found = frechet_pruned(problem, {infinity, true, cells}, record).has_value();

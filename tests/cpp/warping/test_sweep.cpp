@@ -25,7 +25,7 @@ namespace {
 
 using curvewise::GroundDistance;
 using curvewise::Metric;
-using curvewise::kernels::Recurrence;
+using curvewise::kernels::Rule;
 using curvewise::warping::available_levels;
 using curvewise::warping::Band;
 using curvewise::warping::Level;
@@ -41,15 +41,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Setup {
     GroundDistance ground;
-    Recurrence recurrence = Recurrence::dtw_symmetric1;
+    Rule rule = Rule::dtw_symmetric1;
     std::optional<std::ptrdiff_t> window;
     bool open_begin = false;
     std::ptrdiff_t workers = 1;
 
     bool is_exact() const { return oracle::is_exact(ground); }
     oracle::Rules rules() const {
-        return {ground, recurrence == Recurrence::frechet,
-                recurrence == Recurrence::dtw_symmetric2 ? 2.0 : 1.0, window, open_begin};
+        return {ground, rule == Rule::frechet, rule == Rule::dtw_symmetric2 ? 2.0 : 1.0, window,
+                open_begin};
     }
 };
 
@@ -66,7 +66,7 @@ class Comparison {
     void run() {
         for (const Level& level : available_levels()) {
             const check::Note note(level.name);
-            SweepProblem problem = curves_.problem(level, setup_.recurrence, setup_.ground);
+            SweepProblem problem = curves_.problem(level, setup_.rule, setup_.ground);
             problem.columns = band_;
             problem.open_begin = setup_.open_begin;
             problem.workers = setup_.workers;
@@ -114,9 +114,9 @@ class Comparison {
             return smallest(P_.size(), [&](auto i) { return ground_distance(i, j); });
         });
         for (const double most : {value, 1.25 * value, 0.75 * value}) {
-            const curvewise::warping::CostToGo cost_to_go{
-                most, 1.0 - 0x1p-40, after_row.data() + 1, after_column.data() + 1,
-                setup_.recurrence == Recurrence::dtw_symmetric2};
+            const curvewise::warping::CostToGo cost_to_go{most, 1.0 - 0x1p-40, after_row.data() + 1,
+                                                          after_column.data() + 1,
+                                                          setup_.rule == Rule::dtw_symmetric2};
             curvewise::warping::SweptColumns swept;
             problem.columns = LiveColumns(band_, cost_to_go, swept);
             const double narrowed = last_row(problem)[Q_.size() - 1];
@@ -138,7 +138,7 @@ class Comparison {
     template <class Term>
     std::vector<double> suffix_sums(std::ptrdiff_t count, Term term) const {
         std::vector<double> sums(static_cast<std::size_t>(count + 1), 0.0);
-        if (setup_.recurrence == Recurrence::frechet) return sums;
+        if (setup_.rule == Rule::frechet) return sums;
         for (std::ptrdiff_t k = count - 1; k >= 0; --k) {
             sums[static_cast<std::size_t>(k)] = term(k) + sums[static_cast<std::size_t>(k + 1)];
         }
@@ -202,12 +202,11 @@ class Comparison {
 };
 
 constexpr std::ptrdiff_t dimensions[] = {1, 2, 3, 4, 7};
-constexpr Recurrence recurrences[] = {Recurrence::dtw_symmetric1, Recurrence::dtw_symmetric2,
-                                      Recurrence::frechet};
+constexpr Rule rules[] = {Rule::dtw_symmetric1, Rule::dtw_symmetric2, Rule::frechet};
 
 std::string described(const Setup& setup) {
-    return oracle::name(setup.ground.metric) + ", recurrence " +
-           std::to_string(static_cast<int>(setup.recurrence)) + ", window " +
+    return oracle::name(setup.ground.metric) + ", rule " +
+           std::to_string(static_cast<int>(setup.rule)) + ", window " +
            (setup.window ? std::to_string(*setup.window) : "none") +
            (setup.open_begin ? ", open_begin" : "") + ", workers " + std::to_string(setup.workers);
 }
@@ -243,9 +242,9 @@ void sizes_around_a_vector() {
                 const Curve P = random.lattice_curve(n, dim), Q = random.lattice_curve(m, dim);
                 const Curve R = random.curve(n, dim), S = random.curve(m, dim);
                 for (const Metric metric : oracle::metrics) {
-                    for (const Recurrence recurrence : recurrences) {
-                        compare_windows(P, Q, {{metric, 2.5}, recurrence, {}}, {0, 1, 2});
-                        compare_windows(R, S, {{metric, 2.5}, recurrence, {}}, {1, 3});
+                    for (const Rule rule : rules) {
+                        compare_windows(P, Q, {{metric, 2.5}, rule, {}}, {0, 1, 2});
+                        compare_windows(R, S, {{metric, 2.5}, rule, {}}, {1, 3});
                     }
                 }
             }
@@ -263,12 +262,12 @@ void sizes_around_a_strip() {
                 const Curve P = lattice ? random.lattice_curve(n, dim) : random.curve(n, dim);
                 const Curve Q = lattice ? random.lattice_curve(m, dim) : random.curve(m, dim);
                 for (const Metric metric : oracle::metrics) {
-                    for (const Recurrence recurrence : recurrences) {
-                        compare_windows(P, Q, {{metric, 2.5}, recurrence, {}}, {2});
+                    for (const Rule rule : rules) {
+                        compare_windows(P, Q, {{metric, 2.5}, rule, {}}, {2});
                     }
                 }
-                compare(Q, P, {{Metric::euclidean}, Recurrence::dtw_symmetric2, {}});
-                compare(Q, P, {{Metric::sqeuclidean}, Recurrence::frechet, {}});
+                compare(Q, P, {{Metric::euclidean}, Rule::dtw_symmetric2, {}});
+                compare(Q, P, {{Metric::sqeuclidean}, Rule::frechet, {}});
             }
         }
     }
@@ -282,11 +281,9 @@ void bands_across_strips() {
         for (const std::ptrdiff_t m : {n - 1, n, n + 1, n / 3, 2 * n}) {
             const Curve P = random.curve(n, 2), Q = random.curve(m, 2);
             const Curve R = random.lattice_curve(n, 2), S = random.lattice_curve(m, 2);
-            for (const Recurrence recurrence :
-                 {Recurrence::dtw_symmetric1, Recurrence::dtw_symmetric2}) {
-                compare_windows(P, Q, {{Metric::euclidean}, recurrence, {}},
-                                {0, 1, 7, n / 4, 2 * n});
-                compare_windows(R, S, {{Metric::cityblock}, recurrence, {}}, {0, 1, 7});
+            for (const Rule rule : {Rule::dtw_symmetric1, Rule::dtw_symmetric2}) {
+                compare_windows(P, Q, {{Metric::euclidean}, rule, {}}, {0, 1, 7, n / 4, 2 * n});
+                compare_windows(R, S, {{Metric::cityblock}, rule, {}}, {0, 1, 7});
             }
         }
     }
@@ -298,8 +295,8 @@ void orders_of_minkowski() {
         for (const std::ptrdiff_t dim : dimensions) {
             for (const std::ptrdiff_t n : {1, 9, 33, 257}) {
                 const Curve P = random.curve(n, dim), Q = random.curve(10, dim);
-                for (const Recurrence recurrence : recurrences) {
-                    compare(P, Q, {{Metric::minkowski, p}, recurrence, {}});
+                for (const Rule rule : rules) {
+                    compare(P, Q, {{Metric::minkowski, p}, rule, {}});
                 }
             }
         }
@@ -311,10 +308,10 @@ void orders_of_minkowski() {
 void several_threads() {
     Random random(5);
     for (const std::ptrdiff_t workers : {2, 3}) {
-        for (const Recurrence recurrence : recurrences) {
+        for (const Rule rule : rules) {
             const Curve P = random.curve(300, 2), Q = random.curve(2600, 2);
             const Curve R = random.lattice_curve(1300, 3), S = random.lattice_curve(500, 3);
-            Setup setup{{Metric::euclidean}, recurrence, {}};
+            Setup setup{{Metric::euclidean}, rule, {}};
             setup.workers = workers;
             compare_windows(P, Q, setup, {900});
             compare_windows(R, S, setup, {200});

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from curvewise.calibration import identify, profile
 from curvewise.calibration.uncertainty.estimate import estimate_of
-from curvewise.calibration.uncertainty.followed import End
+from curvewise.calibration.uncertainty.followed import IntervalEnd
 from curvewise.calibration.uncertainty.noise import noise_of
 from curvewise.calibration.uncertainty.spread import linear_spread
 
@@ -37,7 +37,7 @@ def test_of_a_linear_function_the_end_is_that_of_the_ellipsoid(seed, index, way,
     inverse = np.linalg.inv(slopes.T @ slopes)
     start = np.full(3, 0.5)
     square = (0.2 * size) ** 2 / inverse.diagonal().max()
-    end = End(start, slopes, index, way, square)
+    end = IntervalEnd(start, slopes, index, way, square)
     place = arrived(end, lambda p: slopes @ p, lambda p: slopes, start)
     expected = way * math.sqrt(square * inverse[index, index])
     assert place[index] - 0.5 == pytest.approx(expected, rel=1e-6)
@@ -55,7 +55,7 @@ def test_of_a_curved_function_the_end_is_where_the_function_has_moved_as_far():
     slopes = (3.0 * function(start)).reshape(1, 1)
     ends = [
         arrived(
-            End(start, slopes, 0, way, square),
+            IntervalEnd(start, slopes, 0, way, square),
             function,
             lambda p: (3.0 * function(p)).reshape(1, 1),
             start,
@@ -74,19 +74,19 @@ def test_a_parameter_is_held_at_its_bound_and_the_other_goes_on():
     slopes = np.array([[1.0, 0.9], [0.0, 0.2]])
     start, square = np.array([0.2, 0.1]), 0.09
     place = arrived(
-        End(start, slopes, 0, 1.0, square), lambda p: slopes @ p, lambda p: slopes, start
+        IntervalEnd(start, slopes, 0, 1.0, square), lambda p: slopes @ p, lambda p: slopes, start
     )
     assert place[1] == 0.0
     root = math.sqrt(square - (0.2 * 0.1) ** 2)
     assert place[0] == pytest.approx(0.2 + 0.9 * 0.1 + root, rel=1e-6)
-    free = End(start, 0.01 * slopes, 0, 1.0, square)
+    free = IntervalEnd(start, 0.01 * slopes, 0, 1.0, square)
     assert arrived(free, lambda p: 0.01 * slopes @ p, lambda p: 0.01 * slopes, start)[0] == 1.0
 
 
 def test_a_run_that_fails_halves_the_step():
     slopes = np.eye(1)
     start = np.array([0.5])
-    end = End(start, slopes, 0, 1.0, 0.04)
+    end = IntervalEnd(start, slopes, 0, 1.0, 0.04)
     first = end.next_place()
     assert first == pytest.approx(0.7)
     end.tell(first, None, None)
@@ -226,7 +226,7 @@ def test_where_a_parameter_is_at_its_bound_no_end_counts_for_its_parameter_alone
     heights = squares / np.diag(estimate.inverse)
     slopes = estimate.factors[:, np.newaxis] * Parabola.columns * np.ptp(list(bounds.values()), 1)
     ends = [
-        End(optimum.unit, slopes, i, way, square)
+        IntervalEnd(optimum.unit, slopes, i, way, square)
         for i, square in enumerate(heights)
         for way in (-1.0, 1.0)
     ]

@@ -204,13 +204,13 @@ BesideKernels select_beside_of(Cost cost, std::ptrdiff_t dim) noexcept {
     return {};
 }
 
-BesideKernels select_beside(Recurrence recurrence, Cost cost, std::ptrdiff_t dim) noexcept {
-    switch (recurrence) {
-        case Recurrence::dtw_symmetric1:
+BesideKernels select_beside(Rule rule, Cost cost, std::ptrdiff_t dim) noexcept {
+    switch (rule) {
+        case Rule::dtw_symmetric1:
             return select_beside_of<DtwSymmetric1>(cost, dim);
-        case Recurrence::dtw_symmetric2:
+        case Rule::dtw_symmetric2:
             return select_beside_of<DtwSymmetric2>(cost, dim);
-        case Recurrence::frechet:
+        case Rule::frechet:
             break;
     }
     return select_beside_of<DiscreteFrechet>(cost, dim);

@@ -17,6 +17,8 @@
 //                   monotone in floating point. A table of largest distances then holds sqeuclidean
 //                   instead, and takes one root at the end. If such a function is not a norm,
 //                   sqeuclidean has the bounds, and the function is applied to each bound
+//   takes_degrees   whether points are longitudes and latitudes in degrees, which are checked, and
+//                   packed as points of the unit sphere
 //
 // and the functions
 //
@@ -38,6 +40,7 @@ struct Sqeuclidean {
     static constexpr bool is_norm = true;
     static constexpr bool is_absolute_in_one_dimension = false;
     static constexpr bool is_root = false;
+    static constexpr bool takes_degrees = false;
 
     static Number add(const Number& sum, const Number& delta) noexcept {
         return A::sum(sum, A::product(delta, delta));
@@ -78,6 +81,7 @@ struct Cityblock {
     static constexpr bool is_norm = true;
     static constexpr bool is_absolute_in_one_dimension = true;
     static constexpr bool is_root = false;
+    static constexpr bool takes_degrees = false;
 
     static Number add(const Number& sum, const Number& delta) noexcept {
         return A::sum(sum, A::absolute(delta));
@@ -101,6 +105,7 @@ struct Chebyshev {
     static constexpr bool is_norm = true;
     static constexpr bool is_absolute_in_one_dimension = true;
     static constexpr bool is_root = false;
+    static constexpr bool takes_degrees = false;
 
     static Number add(const Number& sum, const Number& delta) noexcept {
         return A::larger(sum, A::absolute(delta));
@@ -125,6 +130,7 @@ struct Minkowski {
     static constexpr bool is_norm = false;
     static constexpr bool is_absolute_in_one_dimension = true;
     static constexpr bool is_root = false;
+    static constexpr bool takes_degrees = false;
 
     // The largest difference is factored out so that no power overflows.
     template <class P, class Q>
@@ -170,6 +176,7 @@ struct Haversine {
     static constexpr bool is_norm = false;
     static constexpr bool is_absolute_in_one_dimension = false;
     static constexpr bool is_root = true;
+    static constexpr bool takes_degrees = true;
 
     static Number finish(const Number& sum, const Number& radius) noexcept {
         const Number half = A::number(0.5), quarter_turn = A::number(1.5707963267948966);

@@ -228,14 +228,14 @@ AdvanceFunction select_resident_of(Cost cost, std::ptrdiff_t dim,
     return nullptr;
 }
 
-AdvanceFunction select_resident(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
+AdvanceFunction select_resident(Rule rule, Cost cost, std::ptrdiff_t dim,
                                 std::ptrdiff_t shorter_side) noexcept {
-    switch (recurrence) {
-        case Recurrence::dtw_symmetric1:
+    switch (rule) {
+        case Rule::dtw_symmetric1:
             return select_resident_of<DtwSymmetric1>(cost, dim, shorter_side);
-        case Recurrence::dtw_symmetric2:
+        case Rule::dtw_symmetric2:
             return select_resident_of<DtwSymmetric2>(cost, dim, shorter_side);
-        case Recurrence::frechet:
+        case Rule::frechet:
             break;
     }
     return select_resident_of<DiscreteFrechet>(cost, dim, shorter_side);

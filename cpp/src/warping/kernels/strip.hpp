@@ -36,7 +36,8 @@ inline constexpr std::ptrdiff_t padding = 8;
 // The rows of a strip whose values stay in registers.
 inline constexpr std::ptrdiff_t resident_rows = 32;
 
-enum class Recurrence { dtw_symmetric1, dtw_symmetric2, frechet };
+// How a cell follows from its predecessors.
+enum class Rule { dtw_symmetric1, dtw_symmetric2, frechet };
 
 // The predecessor of a cell, as stored per cell if a path is requested.
 enum Predecessor : std::uint8_t { diagonal = 0, up = 1, left = 2 };
@@ -111,11 +112,10 @@ struct Cost {
 
 // What one instruction-set level offers.
 struct KernelSet {
-    AdvanceFunction (*advance)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
-                               Output output) noexcept;
+    AdvanceFunction (*advance)(Rule rule, Cost cost, std::ptrdiff_t dim, Output output) noexcept;
     // The same for strips of at most resident_rows rows that hold all of their columns, if only the
     // bottom row is needed. Null if it would not be faster for a region with this shorter side.
-    AdvanceFunction (*resident)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
+    AdvanceFunction (*resident)(Rule rule, Cost cost, std::ptrdiff_t dim,
                                 std::ptrdiff_t shorter_side) noexcept;
     CostFunction (*fill)(Cost cost) noexcept;
     // Null for a ground distance without bounds.
@@ -131,7 +131,7 @@ struct KernelSet {
     NarrowFunction narrow;
     std::ptrdiff_t lanes;  // of a SIMD vector: the rows that it takes
     // Several pairs at once.
-    BesideKernels (*beside)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim) noexcept;
+    BesideKernels (*beside)(Rule rule, Cost cost, std::ptrdiff_t dim) noexcept;
     DiagonalFunction scan_diagonals;
     ArcFunction arcs;
     SoftForward soft_forward;

@@ -268,14 +268,13 @@ AdvanceFunction select_output(Cost cost, std::ptrdiff_t dim, Output output) noex
     return advance<Rule, BufferedCost, KeepTable>;
 }
 
-AdvanceFunction select_advance(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
-                               Output output) noexcept {
-    switch (recurrence) {
-        case Recurrence::dtw_symmetric1:
+AdvanceFunction select_advance(Rule rule, Cost cost, std::ptrdiff_t dim, Output output) noexcept {
+    switch (rule) {
+        case Rule::dtw_symmetric1:
             return select_output<DtwSymmetric1>(cost, dim, output);
-        case Recurrence::dtw_symmetric2:
+        case Rule::dtw_symmetric2:
             return select_output<DtwSymmetric2>(cost, dim, output);
-        case Recurrence::frechet:
+        case Rule::frechet:
             break;
     }
     return select_output<DiscreteFrechet>(cost, dim, output);
