@@ -3,6 +3,7 @@
 /// Eigen adaptors.
 #pragma once
 
+#include "curvewise/attempt.hpp"
 #include "curvewise/block_distances.hpp"
 #include "curvewise/build_info.hpp"
 #include "curvewise/closed_curves.hpp"

@@ -3,8 +3,15 @@
 #include <type_traits>
 #include <variant>
 
+#include "curvewise/attempt.hpp"
+
 namespace curvewise::c {
 namespace {
+
+static_assert(static_cast<int>(Status::invalid_argument) == CURVEWISE_INVALID_ARGUMENT);
+static_assert(static_cast<int>(Status::no_memory) == CURVEWISE_NO_MEMORY);
+static_assert(static_cast<int>(Status::failed) == CURVEWISE_FAILED);
+static_assert(static_cast<int>(Status::stopped) == CURVEWISE_STOPPED);
 
 template <int measure, class Options>
 constexpr bool is_measure = std::is_same_v<std::variant_alternative_t<measure, Measure>, Options>;
@@ -184,24 +191,13 @@ void write_count(std::size_t found, ptrdiff_t capacity, ptrdiff_t& count) {
 int status_of_exception(curvewise_error* error) noexcept {
     try {
         throw;
-    } catch (const std::invalid_argument& refused) {
-        report(error, refused.what());
-        return CURVEWISE_INVALID_ARGUMENT;
-    } catch (const std::bad_alloc& exhausted) {
-        report(error, exhausted.what());
-        return CURVEWISE_NO_MEMORY;
-    } catch (const Stopped& stopped) {
-        report(error, stopped.what());
-        return CURVEWISE_STOPPED;
     } catch (const NoRoom& short_of) {
         report(error, short_of.what());
         return CURVEWISE_NO_ROOM;
-    } catch (const std::exception& failure) {
-        report(error, failure.what());
-        return CURVEWISE_FAILED;
-    } catch (...) {  // the library throws no others; nothing may pass through C
-        report(error, "an exception of unknown type");
-        return CURVEWISE_FAILED;
+    } catch (...) {  // nothing may pass through C
+        const Failure failure = failure_of_exception();
+        report(error, failure.message);
+        return static_cast<int>(failure.status);
     }
 }
 
