@@ -53,7 +53,6 @@ class FrechetContinuousMeasure : public pairwise::Distance {
         return {FrechetContinuousOptions::measure, 1, false};
     }
     static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
-    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
     std::ptrdiff_t workers() const noexcept { return workers_; }
     static std::int64_t steps(std::int64_t n, std::int64_t count, std::int64_t points) noexcept {
         return n * count + points;

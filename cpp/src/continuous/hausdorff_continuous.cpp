@@ -32,7 +32,6 @@ class HausdorffContinuousMeasure : public pairwise::Distance {
         return {HausdorffContinuousOptions::measure, 1, false};
     }
     static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
-    static void check_p(const PreparedP& /*P*/, runtime::Poller& /*poller*/) noexcept {}
     static std::ptrdiff_t workers() noexcept { return 1; }
     static std::int64_t steps(std::int64_t n, std::int64_t count, std::int64_t points) noexcept {
         return n * count + points;

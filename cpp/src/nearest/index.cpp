@@ -30,7 +30,6 @@ namespace {
 using curves::CheckedCurve;
 using curves::CurveInDoubles;
 using curves::CurveList;
-using curves::LoadedCurve;
 using nearest::Caller;
 using nearest::Callers;
 using nearest::IndexView;
@@ -260,7 +259,7 @@ class Index::State {
         runtime::ScratchVector<std::ptrdiff_t> sizes;
         for (const CheckedCurve& P : queries.curves) {
             sizes.push_back(P.curve.size());
-            targets_->check(LoadedCurve(P, poller).checked(), poller);
+            targets_->check(P, poller);
         }
         std::sort(sizes.begin(), sizes.end());
         sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());

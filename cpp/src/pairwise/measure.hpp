@@ -16,6 +16,8 @@
 //   is_zero_to_itself(checked)           whether the value of a curve and itself is known to be 0
 //   check_p(prepared_p, poller)          throws the error of the value if P is invalid for every Q:
 //                                        for batches, which check before any work
+//   M::checks_p                          whether it ever throws: if not, an index prepares no curve
+//                                        for it
 //   workers()                            the threads for a single pair
 //   M::steps(n, count, points)           the nominal steps of a curve of n points against `count`
 //                                        curves of `points` points in all
@@ -108,6 +110,9 @@ class Distance {
     static constexpr bool is_zero_to_itself(const curves::CheckedCurve& /*checked*/) noexcept {
         return true;
     }
+    static constexpr bool checks_p = false;
+    template <class PreparedP>
+    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
 };
 
 // What measures have in common whose time is linear in the points of their two plane curves.
@@ -117,8 +122,6 @@ class LinearMeasure : public Distance {
     struct Memory {};
 
     static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
-    template <class PreparedP>
-    void check_p(const PreparedP& /*P*/, Poller& /*poller*/) const noexcept {}
     static std::ptrdiff_t workers() noexcept { return 1; }
     static std::int64_t steps(std::int64_t n, std::int64_t count, std::int64_t points) noexcept {
         return n * count + points;
@@ -132,8 +135,6 @@ class SweptMeasure : public Distance {
     static constexpr bool is_swept = true;
 
     static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
-    template <class PreparedP>
-    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
     static std::ptrdiff_t workers() noexcept { return 1; }
     static std::int64_t steps(std::int64_t n, std::int64_t /*count*/,
                               std::int64_t points) noexcept {

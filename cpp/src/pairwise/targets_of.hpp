@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "curves/owned_curve.hpp"
 #include "pairwise/measure.hpp"
 #include "pairwise/stored_curve.hpp"
 #include "pairwise/targets.hpp"
@@ -169,7 +170,10 @@ class TargetsOf final : public Targets {
     }
     CheckedCurve curve(std::ptrdiff_t j) const override { return checked(curves_[j]); }
     void check(const CheckedCurve& P, Poller& poller) const override {
-        measure_.check_p(typename M::PreparedP(P, poller), poller);
+        if constexpr (M::checks_p) {
+            const curves::LoadedCurve loaded(P, poller);
+            measure_.check_p(typename M::PreparedP(loaded.checked(), poller), poller);
+        }
     }
     std::int64_t steps(std::ptrdiff_t n, const Seen& seen) const noexcept override {
         return M::steps(n, seen.remaining, seen.points);

@@ -127,6 +127,7 @@ class AreaMeasure : public pairwise::LinearMeasure {
     bool is_zero_to_itself(const curves::CheckedCurve& /*checked*/) const noexcept {
         return options_.spacing != Spacing::function;
     }
+    static constexpr bool checks_p = true;
     void check_p(const PreparedP& P, runtime::Poller& poller) const {
         if (options_.spacing == Spacing::function) planar::check_is_function(P.checked, poller);
     }

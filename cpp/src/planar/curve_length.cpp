@@ -264,6 +264,7 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
     }
 
     // Throws where there is nothing to divide by.
+    static constexpr bool checks_p = true;
     void check_p(const PreparedP& P, Poller& poller) const { scales_of(P, P, poller); }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
