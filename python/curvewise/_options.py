@@ -1,8 +1,9 @@
 """The choices and defaults of the measures' options.
 
 The measures and the reference, which must not import each other, both take choices and defaults
-from here, and so do the docstrings that list them. Defaults are the compiled library's. Choices are
-repeated here for type checkers, and a test compares them with ``_core.choices()``.
+from here. Choices are repeated here for type checkers, and a test compares them with
+``_core.choices()``. Signatures of measures repeat the library's defaults for editors, and a test
+compares them with ``_core.measures()``; other packages take `Default`.
 """
 
 from __future__ import annotations
@@ -111,7 +112,7 @@ _DEFAULTS: dict[str, Any] = {
 
 
 class Default:
-    """Defaults of options of several functions: the compiled library's, or Python's own."""
+    """Defaults that functions of many packages share: the compiled library's, or Python's own."""
 
     metric: Final[Metric] = _DEFAULTS["metric"]
     p: Final[Order] = _DEFAULTS["p"]
@@ -119,15 +120,12 @@ class Default:
     window: Final[Window] = _DEFAULTS["window"]
     spacing: Final[Spacing] = _DEFAULTS["spacing"]
     crossing: Final[Crossing] = _DEFAULTS["crossing"]
-    squared: Final[bool] = _DEFAULTS["squared"]
     offsets: Final[Offsets] = _DEFAULTS["offsets"]
     scale: Final[LengthScale] = _DEFAULTS["scale"]
     directed: Final[bool] = _DEFAULTS["directed"]
     workers: Final[SupportsIndex] = _DEFAULTS["workers"]
-    prune: Final[bool] = _DEFAULTS["prune"]
     cutoff: Final[SupportsFloat | None] = _DEFAULTS["cutoff"]
     missing: Final[Missing] = "refuse"
-    closed: Final[bool] = False
 
 
 def check_choice(option: str, value: object, choices: Collection[str]) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from .._core import area as compiled_area
 from .._core import area_quads as compiled_area_quads
-from .._options import Crossing, Default, Missing, Spacing
+from .._options import Crossing, Missing, Spacing
 from ..curves.inputs import CurveLike, as_curves
 from ..curves.missing import skip_in_pair
 from .results import AreaQuads
@@ -20,10 +20,10 @@ def area(
     P: CurveLike,
     Q: CurveLike,
     *,
-    spacing: Spacing = Default.spacing,
-    crossing: Crossing = Default.crossing,
-    squared: bool = Default.squared,
-    missing: Missing = Default.missing,
+    spacing: Spacing = "distance",
+    crossing: Crossing = "rearrange",
+    squared: bool = False,
+    missing: Missing = "refuse",
 ) -> float:
     """Compute the area between two curves in the plane.
 
@@ -137,8 +137,8 @@ def area_quads(
     P: CurveLike,
     Q: CurveLike,
     *,
-    spacing: Spacing = Default.spacing,
-    crossing: Crossing = Default.crossing,
+    spacing: Spacing = "distance",
+    crossing: Crossing = "rearrange",
 ) -> AreaQuads:
     """Return the quadrilaterals whose areas :func:`area` adds up.
 

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from .._core import curve_length as compiled_curve_length
 from .._core import curve_length_residuals as compiled_curve_length_residuals
-from .._options import Default, LengthScale
+from .._options import LengthScale
 from ..curves.inputs import Array, CurveLike, as_curves
 
 __all__ = ["curve_length", "curve_length_residuals"]
 
 
-def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.scale) -> float:
+def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = "mean") -> float:
     """Compute the curve-length measure between two curves.
 
     It is the norm of log-relative differences at equal fractions of arc length.
@@ -58,9 +58,7 @@ def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.sca
     return compiled_curve_length(P, Q, (scale,))
 
 
-def curve_length_residuals(
-    P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.scale
-) -> Array:
+def curve_length_residuals(P: CurveLike, Q: CurveLike, *, scale: LengthScale = "mean") -> Array:
     """Return the terms of :func:`curve_length`, for a least-squares solver.
 
     Parameters

@@ -11,7 +11,7 @@ from .._core import dtw as compiled_dtw
 from .._core import dtw_info as compiled_dtw_info
 from .._core import dtw_path as compiled_dtw_path
 from .._core import dtw_table as compiled_dtw_table
-from .._options import Default, GroundDistance, Missing, Order, Radius, Relax, Window, check_closed
+from .._options import GroundDistance, Missing, Order, Radius, Relax, Window, check_closed
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.missing import skip_in_pair
 from ..curves.named_curve import copied
@@ -27,21 +27,21 @@ def dtw(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: GroundDistance = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: GroundDistance = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     step_pattern: Steps = "symmetric1",
     penalty: SupportsFloat = 0.0,
-    window: Window = Default.window,
+    window: Window = None,
     open_begin: bool = False,
     open_end: bool = False,
     relax: Relax = None,
     normalize: bool = False,
-    workers: SupportsIndex = Default.workers,
-    prune: bool = Default.prune,
-    cutoff: SupportsFloat | None = Default.cutoff,
-    missing: Missing = Default.missing,
-    closed: bool = Default.closed,
+    workers: SupportsIndex = 1,
+    prune: bool = True,
+    cutoff: SupportsFloat | None = None,
+    missing: Missing = "refuse",
+    closed: bool = False,
 ) -> float:
     """Compute dynamic time warping between two curves.
 
@@ -209,17 +209,17 @@ def dtw_info(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: GroundDistance = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: GroundDistance = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     step_pattern: Steps = "symmetric1",
     penalty: SupportsFloat = 0.0,
-    window: Window = Default.window,
+    window: Window = None,
     open_begin: bool = False,
     open_end: bool = False,
     relax: Relax = None,
-    workers: SupportsIndex = Default.workers,
-    prune: bool = Default.prune,
+    workers: SupportsIndex = 1,
+    prune: bool = True,
 ) -> WarpingInfo:
     """Compute dynamic time warping, with statistics on the table.
 
@@ -266,7 +266,7 @@ def dtw_info(
         False,
         workers,
         prune,
-        Default.cutoff,
+        None,
     )
     return WarpingInfo(*compiled_dtw_info(P, Q, options))
 
@@ -277,18 +277,18 @@ def dtw_path(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: GroundDistance = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: GroundDistance = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     step_pattern: Steps = "symmetric1",
     penalty: SupportsFloat = 0.0,
-    window: Window = Default.window,
+    window: Window = None,
     open_begin: bool = False,
     open_end: bool = False,
     relax: Relax = None,
-    workers: SupportsIndex = Default.workers,
-    prune: bool = Default.prune,
-    closed: bool = Default.closed,
+    workers: SupportsIndex = 1,
+    prune: bool = True,
+    closed: bool = False,
 ) -> Alignment:
     """Compute dynamic time warping with an optimal warping path.
 
@@ -344,7 +344,7 @@ def dtw_path(
         False,
         workers,
         prune,
-        Default.cutoff,
+        None,
     )
     return Alignment(*compiled_dtw_path(A, B, options), (copied(P, A), copied(Q, B)))
 
@@ -354,12 +354,12 @@ def dtw_table(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: GroundDistance = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: GroundDistance = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     step_pattern: Steps = "symmetric1",
     penalty: SupportsFloat = 0.0,
-    window: Window = Default.window,
+    window: Window = None,
     open_begin: bool = False,
     open_end: bool = False,
     relax: Relax = None,
@@ -407,8 +407,8 @@ def dtw_table(
         open_end,
         relax,
         False,
-        Default.workers,
-        Default.prune,
-        Default.cutoff,
+        1,
+        True,
+        None,
     )
     return compiled_dtw_table(P, Q, options)

@@ -16,7 +16,7 @@ from .._core import lcss as compiled_lcss
 from .._core import msm as compiled_msm
 from .._core import twe as compiled_twe
 from .._core import wdtw as compiled_wdtw
-from .._options import Default, Metric, Missing, Order, Radius, Window, check_choice
+from .._options import Metric, Missing, Order, Radius, Window, check_choice
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.missing import skip_in_pair
 from ..curves.named_curve import copied
@@ -33,13 +33,13 @@ def erp(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: Metric = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     gap: SupportsFloat = 0.0,
-    window: Window = Default.window,
-    cutoff: SupportsFloat | None = Default.cutoff,
-    missing: Missing = Default.missing,
+    window: Window = None,
+    cutoff: SupportsFloat | None = None,
+    missing: Missing = "refuse",
 ) -> float:
     """Compute the edit distance with real penalty.
 
@@ -103,13 +103,13 @@ def edr(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: Metric = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     epsilon: SupportsFloat | None = None,
-    window: Window = Default.window,
-    cutoff: SupportsFloat | None = Default.cutoff,
-    missing: Missing = Default.missing,
+    window: Window = None,
+    cutoff: SupportsFloat | None = None,
+    missing: Missing = "refuse",
 ) -> float:
     """Compute the edit distance on real sequences.
 
@@ -173,13 +173,13 @@ def lcss(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: Metric = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     epsilon: SupportsFloat = 1.0,
-    window: Window = Default.window,
-    cutoff: SupportsFloat | None = Default.cutoff,
-    missing: Missing = Default.missing,
+    window: Window = None,
+    cutoff: SupportsFloat | None = None,
+    missing: Missing = "refuse",
 ) -> float:
     """Compute the longest common subsequence distance.
 
@@ -243,9 +243,9 @@ def msm(
     Q: CurveLike,
     *,
     cost: SupportsFloat = 1.0,
-    window: Window = Default.window,
-    cutoff: SupportsFloat | None = Default.cutoff,
-    missing: Missing = Default.missing,
+    window: Window = None,
+    cutoff: SupportsFloat | None = None,
+    missing: Missing = "refuse",
 ) -> float:
     """Compute the move-split-merge distance between two series.
 
@@ -299,14 +299,14 @@ def twe(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: Metric = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     stiffness: SupportsFloat = 0.001,
     penalty: SupportsFloat = 1.0,
-    window: Window = Default.window,
-    cutoff: SupportsFloat | None = Default.cutoff,
-    missing: Missing = Default.missing,
+    window: Window = None,
+    cutoff: SupportsFloat | None = None,
+    missing: Missing = "refuse",
 ) -> float:
     """Compute the time warp edit distance.
 
@@ -373,12 +373,12 @@ def wdtw(
     Q: CurveLike,
     *,
     metric: Metric = "sqeuclidean",
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    p: Order = None,
+    radius: Radius = None,
     steepness: SupportsFloat = 0.05,
-    window: Window = Default.window,
-    cutoff: SupportsFloat | None = Default.cutoff,
-    missing: Missing = Default.missing,
+    window: Window = None,
+    cutoff: SupportsFloat | None = None,
+    missing: Missing = "refuse",
 ) -> float:
     """Compute weighted dynamic time warping.
 

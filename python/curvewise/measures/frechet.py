@@ -11,7 +11,7 @@ from .._core import frechet as compiled_frechet
 from .._core import frechet_info as compiled_frechet_info
 from .._core import frechet_path as compiled_frechet_path
 from .._core import frechet_table as compiled_frechet_table
-from .._options import Default, GroundDistance, Missing, Order, Radius
+from .._options import GroundDistance, Missing, Order, Radius
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.missing import skip_in_pair
 from ..curves.named_curve import copied
@@ -26,14 +26,14 @@ def frechet(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: GroundDistance = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
-    workers: SupportsIndex = Default.workers,
-    prune: bool = Default.prune,
-    cutoff: SupportsFloat | None = Default.cutoff,
-    missing: Missing = Default.missing,
-    closed: bool = Default.closed,
+    metric: GroundDistance = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
+    workers: SupportsIndex = 1,
+    prune: bool = True,
+    cutoff: SupportsFloat | None = None,
+    missing: Missing = "refuse",
+    closed: bool = False,
 ) -> float:
     """Compute the discrete Fréchet distance between two curves.
 
@@ -125,11 +125,11 @@ def frechet_info(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: GroundDistance = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
-    workers: SupportsIndex = Default.workers,
-    prune: bool = Default.prune,
+    metric: GroundDistance = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
+    workers: SupportsIndex = 1,
+    prune: bool = True,
 ) -> WarpingInfo:
     """Compute the discrete Fréchet distance, with statistics on the table.
 
@@ -161,7 +161,7 @@ def frechet_info(
     (3.0, 6, 1.0)
     """
     P, Q = as_curves(P, Q)
-    options = (metric, p, radius, workers, prune, Default.cutoff)
+    options = (metric, p, radius, workers, prune, None)
     return WarpingInfo(*compiled_frechet_info(P, Q, options))
 
 
@@ -170,12 +170,12 @@ def frechet_path(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: GroundDistance = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
-    workers: SupportsIndex = Default.workers,
-    prune: bool = Default.prune,
-    closed: bool = Default.closed,
+    metric: GroundDistance = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
+    workers: SupportsIndex = 1,
+    prune: bool = True,
+    closed: bool = False,
 ) -> Alignment:
     """Compute the discrete Fréchet distance with a coupling that attains it.
 
@@ -210,7 +210,7 @@ def frechet_path(
     if closed:
         return closed_alignment("frechet", P, Q, {"metric": metric, "p": p, "radius": radius})
     A, B = as_curves(P, Q)
-    options = (metric, p, radius, workers, prune, Default.cutoff)
+    options = (metric, p, radius, workers, prune, None)
     return Alignment(*compiled_frechet_path(A, B, options), (copied(P, A), copied(Q, B)))
 
 
@@ -219,9 +219,9 @@ def frechet_table(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: GroundDistance = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: GroundDistance = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
 ) -> Array:
     """Return the cumulative table of the discrete Fréchet distance.
 
@@ -253,5 +253,5 @@ def frechet_table(
     [[0.0, 2.0], [1.0, 1.0], [2.0, 1.0]]
     """
     P, Q = as_curves(P, Q)
-    options = (metric, p, radius, Default.workers, Default.prune, Default.cutoff)
+    options = (metric, p, radius, 1, True, None)
     return compiled_frechet_table(P, Q, options)

@@ -13,7 +13,7 @@ from .._core import frechet_continuous as compiled_frechet_continuous
 from .._core import frechet_continuous_bounds as compiled_frechet_continuous_bounds
 from .._core import frechet_continuous_path as compiled_frechet_continuous_path
 from .._core import frechet_within as compiled_frechet_within
-from .._options import Default, real_number
+from .._options import real_number
 from ..curves.inputs import CurveLike, as_curves
 from ..curves.named_curve import copied
 from .results import Matching
@@ -27,13 +27,13 @@ def frechet_continuous(
     Q: CurveLike,
     *,
     bounds: Literal[False] = False,
-    workers: SupportsIndex = Default.workers,
+    workers: SupportsIndex = 1,
 ) -> float: ...
 
 
 @overload
 def frechet_continuous(
-    P: CurveLike, Q: CurveLike, *, bounds: Literal[True], workers: SupportsIndex = Default.workers
+    P: CurveLike, Q: CurveLike, *, bounds: Literal[True], workers: SupportsIndex = 1
 ) -> tuple[float, float]: ...
 
 
@@ -43,7 +43,7 @@ def frechet_continuous(
     Q: CurveLike,
     *,
     bounds: bool = False,
-    workers: SupportsIndex = Default.workers,
+    workers: SupportsIndex = 1,
 ) -> float | tuple[float, float]:
     """Compute the continuous Fréchet distance between two curves.
 
@@ -94,9 +94,7 @@ def frechet_continuous(
     return compiled_frechet_continuous_bounds(*as_curves(P, Q), {"workers": workers})
 
 
-def frechet_continuous_path(
-    P: CurveLike, Q: CurveLike, *, workers: SupportsIndex = Default.workers
-) -> Matching:
+def frechet_continuous_path(P: CurveLike, Q: CurveLike, *, workers: SupportsIndex = 1) -> Matching:
     """Compute the continuous Fréchet distance with two walks that attain it.
 
     Parameters

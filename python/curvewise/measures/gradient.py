@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from .._core import value_and_gradient as compiled_value_and_gradient
 from .._core import values_and_gradients as compiled_values_and_gradients
-from .._options import Default, Differentiable, check_choice
+from .._options import Differentiable, check_choice
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.layouts import ask_about_curves
 
@@ -114,7 +114,7 @@ def values_and_gradients(
     Q: npt.ArrayLike,
     measure: Differentiable = "dtw",
     *,
-    workers: SupportsIndex = Default.workers,
+    workers: SupportsIndex = 1,
     **options: Any,
 ) -> tuple[Array, Array, Array]:
     """Return a measure of many pairs, and its derivatives by both curves.

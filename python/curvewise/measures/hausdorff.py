@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import SupportsFloat
 
 from .._core import hausdorff as compiled_hausdorff
-from .._options import Default, Metric, Order, Radius
+from .._options import Metric, Order, Radius
 from ..curves.inputs import CurveLike
 
 __all__ = ["hausdorff"]
@@ -16,10 +16,10 @@ def hausdorff(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
-    cutoff: SupportsFloat | None = Default.cutoff,
+    metric: Metric = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
+    cutoff: SupportsFloat | None = None,
 ) -> float:
     """Compute the Hausdorff distance between the points of two curves.
 

@@ -12,7 +12,6 @@ import numpy as np
 
 from .._core import hausdorff_continuous as compiled_hausdorff_continuous
 from .._core import hausdorff_continuous_points as compiled_hausdorff_continuous_points
-from .._options import Default
 from ..curves.inputs import CurveLike, as_curves
 from ..curves.named_curve import copied
 from .results import FarthestPoints
@@ -20,7 +19,7 @@ from .results import FarthestPoints
 __all__ = ["hausdorff_continuous", "hausdorff_continuous_points"]
 
 
-def hausdorff_continuous(P: CurveLike, Q: CurveLike, *, directed: bool = Default.directed) -> float:
+def hausdorff_continuous(P: CurveLike, Q: CurveLike, *, directed: bool = False) -> float:
     """Compute the Hausdorff distance between polygonal curves.
 
     The curves are the points and the straight edges between them. Unlike :func:`hausdorff`, which
@@ -68,7 +67,7 @@ def hausdorff_continuous(P: CurveLike, Q: CurveLike, *, directed: bool = Default
 
 
 def hausdorff_continuous_points(
-    P: CurveLike, Q: CurveLike, *, directed: bool = Default.directed
+    P: CurveLike, Q: CurveLike, *, directed: bool = False
 ) -> FarthestPoints:
     """Compute the Hausdorff distance of polygonal curves, with its points.
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from .._core import pcm as compiled_pcm
 from .._core import pcm_match as compiled_pcm_match
-from .._options import Default, Offsets
+from .._options import Offsets
 from ..curves.inputs import CurveLike, as_curves
 from ..curves.named_curve import copied
 from .results import PcmMatch
@@ -15,7 +15,7 @@ from .results import PcmMatch
 __all__ = ["pcm", "pcm_match"]
 
 
-def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> float:
+def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = 200) -> float:
     """Compute the partial curve mapping measure between two curves.
 
     It is the area to the best-matching part of the longer curve. Both curves are scaled by P's
@@ -68,7 +68,7 @@ def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> fl
     return compiled_pcm(P, Q, (offsets,))
 
 
-def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> PcmMatch:
+def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = 200) -> PcmMatch:
     """Return the partial curve mapping, with the place of the shorter curve.
 
     Parameters

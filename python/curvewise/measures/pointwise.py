@@ -6,7 +6,7 @@ from .._core import mae as compiled_mae
 from .._core import mse as compiled_mse
 from .._core import normalize as compiled_normalize
 from .._core import sum_of_squares as compiled_sum_of_squares
-from .._options import Default, Missing
+from .._options import Missing
 from ..curves.inputs import Array, CurveLike, as_curve, check_column_names, column_names
 from ..curves.layouts import ask_about_curves
 from ..curves.missing import skip_in_both
@@ -15,7 +15,7 @@ __all__ = ["mae", "mse", "normalize", "sum_of_squares"]
 
 
 # Shared text: missing
-def sum_of_squares(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> float:
+def sum_of_squares(P: CurveLike, Q: CurveLike, *, missing: Missing = "refuse") -> float:
     """Compute the sum of squared differences of two curves of equal shape.
 
     Parameters
@@ -54,7 +54,7 @@ def sum_of_squares(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.mis
 
 
 # Shared text: missing
-def mse(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> float:
+def mse(P: CurveLike, Q: CurveLike, *, missing: Missing = "refuse") -> float:
     """Compute the mean squared difference of two curves of equal shape.
 
     Parameters
@@ -91,7 +91,7 @@ def mse(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> fl
 
 
 # Shared text: missing
-def mae(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> float:
+def mae(P: CurveLike, Q: CurveLike, *, missing: Missing = "refuse") -> float:
     """Compute the mean absolute difference of two curves of equal shape.
 
     Parameters

@@ -18,7 +18,7 @@ from typing import NamedTuple, get_args
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Crossing, Default, Spacing, check_choice
+from .._options import Crossing, Spacing, check_choice
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import range_exponent, times_power_of_two
 from ..measures.results import AreaQuads
@@ -34,9 +34,9 @@ def area(
     P: CurveLike,
     Q: CurveLike,
     *,
-    spacing: Spacing = Default.spacing,
-    crossing: Crossing = Default.crossing,
-    squared: bool = Default.squared,
+    spacing: Spacing = "distance",
+    crossing: Crossing = "rearrange",
+    squared: bool = False,
 ) -> float:
     """Add up the areas of :func:`area_quads`, where cost and source are."""
     measured = _measure(P, Q, spacing, crossing)
@@ -56,8 +56,8 @@ def area_quads(
     P: CurveLike,
     Q: CurveLike,
     *,
-    spacing: Spacing = Default.spacing,
-    crossing: Crossing = Default.crossing,
+    spacing: Spacing = "distance",
+    crossing: Crossing = "rearrange",
 ) -> AreaQuads:
     """Algorithm 1 of the paper; its Eq. 6 has a misprint: CD = (x4 - x3, y4 - y3).
 

@@ -12,7 +12,7 @@ from typing import get_args
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, LengthScale, check_choice
+from .._options import LengthScale, check_choice
 from ..curves.arc_length import corresponding_positions, interpolate
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import range_exponent, times_power_of_two
@@ -21,16 +21,14 @@ from .checks import check_length, check_pair
 __all__ = ["curve_length", "curve_length_residuals"]
 
 
-def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.scale) -> float:
+def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = "mean") -> float:
     """Take the Euclidean norm of :func:`curve_length_residuals`, where the cost is."""
     residuals = curve_length_residuals(P, Q, scale=scale)
     with np.errstate(under="ignore"):
         return float(np.sqrt(np.sum(residuals * residuals)))
 
 
-def curve_length_residuals(
-    P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.scale
-) -> Array:
+def curve_length_residuals(P: CurveLike, Q: CurveLike, *, scale: LengthScale = "mean") -> Array:
     """Time O(n log m), memory O(n + m).
 
     Point i of P, at arc length s of total L_P, is compared with the point of Q at s L_Q / L_P.

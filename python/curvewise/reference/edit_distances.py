@@ -16,7 +16,7 @@ from typing import Any, Literal, NamedTuple, ParamSpec, SupportsFloat, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, Metric, Order, Radius, Window, real_number, window_radius
+from .._options import Metric, Order, Radius, Window, real_number, window_radius
 from ..curves.ground_distance import check_metric, degree, ground_distances, in_range
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
@@ -165,11 +165,11 @@ def erp(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: Metric = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     gap: SupportsFloat = 0.0,
-    window: Window = Default.window,
+    window: Window = None,
 ) -> _Found:
     """Time and memory O(n m)."""
     number = real_number("gap", gap, -math.inf, "give a number")
@@ -193,11 +193,11 @@ def edr(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: Metric = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     epsilon: SupportsFloat | None = None,
-    window: Window = Default.window,
+    window: Window = None,
 ) -> _Found:
     """Time and memory O(n m)."""
     pair = _Pair.checked(P, Q, metric, p, radius, window, "edr")
@@ -218,11 +218,11 @@ def lcss(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: Metric = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     epsilon: SupportsFloat = 1.0,
-    window: Window = Default.window,
+    window: Window = None,
 ) -> _Found:
     """Time and memory O(n m)."""
     pair = _Pair.checked(P, Q, metric, p, radius, window, "lcss")
@@ -239,7 +239,7 @@ def msm(
     Q: CurveLike,
     *,
     cost: SupportsFloat = 1.0,
-    window: Window = Default.window,
+    window: Window = None,
 ) -> _Found:
     """Time and memory O(n m)."""
     constant = real_number("cost", cost, 0.0, "give a number >= 0")
@@ -272,12 +272,12 @@ def twe(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: Metric = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     stiffness: SupportsFloat = 0.001,
     penalty: SupportsFloat = 1.0,
-    window: Window = Default.window,
+    window: Window = None,
 ) -> _Found:
     """Time and memory O(n m)."""
     stiff = real_number("stiffness", stiffness, 0.0, "give a number >= 0")
@@ -310,10 +310,10 @@ def wdtw(
     Q: CurveLike,
     *,
     metric: Metric = "sqeuclidean",
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    p: Order = None,
+    radius: Radius = None,
     steepness: SupportsFloat = 0.05,
-    window: Window = Default.window,
+    window: Window = None,
 ) -> _Found:
     """Time and memory O(n m)."""
     pair = _Pair.checked(P, Q, metric, p, radius, window, "wdtw")

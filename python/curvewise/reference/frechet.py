@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._options import Default, GroundDistance, Order, Radius
+from .._options import GroundDistance, Order, Radius
 from ..curves.ground_distance import Root
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
@@ -35,10 +35,10 @@ def frechet(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: GroundDistance = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
-    closed: bool = Default.closed,
+    metric: GroundDistance = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
+    closed: bool = False,
 ) -> float:
     """Time and memory O(n m). Eiter & Mannila, "Computing discrete Fréchet distance" (1994).
 
@@ -55,10 +55,10 @@ def frechet_path(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: GroundDistance = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
-    closed: bool = Default.closed,
+    metric: GroundDistance = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
+    closed: bool = False,
 ) -> Alignment:
     """As for :func:`frechet`."""
     if closed:
@@ -78,9 +78,9 @@ def frechet_table(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: GroundDistance = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: GroundDistance = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
 ) -> Array:
     """As for :func:`frechet`."""
     table = _accumulate(P, Q, metric, p, radius)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._options import Default, Metric, Order, Radius
+from .._options import Metric, Order, Radius
 from ..curves.ground_distance import before_root, check_metric, in_range
 from ..curves.inputs import CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
@@ -22,9 +22,9 @@ def hausdorff(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: Metric = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
 ) -> float:
     """Time and memory O(n m)."""
     P, Q = as_curves(P, Q)

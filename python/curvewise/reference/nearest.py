@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, Metric, Order, Radius, WarpingName, Window
+from .._options import Metric, Order, Radius, WarpingName, Window
 from ..curves.ground_distance import Root, before_root, check_metric, ground_distances, in_range
 from ..curves.inputs import Array, CurveLike, as_curve
 from ..curves.scaling import times_power_of_two
@@ -61,9 +61,9 @@ def subsequence(
     *,
     k: int = 1,
     measure: WarpingName = "dtw",
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
+    metric: Metric = "euclidean",
+    p: Order = None,
+    radius: Radius = None,
     cutoff: float = np.inf,
 ) -> list[Subsequence]:
     """Return the best subsequence of Q, then the best of the remaining sections.
@@ -114,7 +114,7 @@ def dtw_mean(
     initial: CurveLike,
     *,
     weights: Sequence[float] | None = None,
-    window: Window = Default.window,
+    window: Window = None,
     iterations: int = 30,
     tolerance: float = 1e-6,
 ) -> DtwMean:

@@ -14,7 +14,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from .._options import Default, Offsets, whole_number
+from .._options import Offsets, whole_number
 from ..curves.arc_length import box_scaled_arc_lengths, interpolate, locate, norms
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import box_scaled, range_exponent, times_power_of_two
@@ -25,13 +25,13 @@ __all__ = ["pcm", "pcm_match"]
 
 
 _EQUAL_LENGTHS = 1e-12  # relative; within it P counts as the shorter curve
-_GRID = int(Default.offsets)  # which offsets="continuous" is never above
+_GRID = 200  # which offsets="continuous" is never above
 _OFFSET_TOLERANCE = 1e-12  # f is S-Lipschitz: this far from the minimum it is 1e-12 S above it
 _GOLDEN = (math.sqrt(5) - 1) / 2
 _DISTANCES_AT_ONCE = 2**18
 
 
-def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> float:
+def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = 200) -> float:
     """Time O(offsets n log m).
 
     Witowski & Stander, "Parameter identification of hysteretic models using partial curve
@@ -42,7 +42,7 @@ def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> fl
     return pcm_match(P, Q, offsets=offsets).value
 
 
-def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> PcmMatch:
+def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = 200) -> PcmMatch:
     """As for :func:`pcm`."""
     P, Q = as_curves(P, Q)
     if not (isinstance(offsets, str) and offsets == "continuous"):
