@@ -270,13 +270,12 @@ def options_tuple(node: ast.FunctionDef) -> ast.Assign | None:
 
 
 def handed_on(node: ast.FunctionDef) -> list[str]:
-    """Return the names in that tuple."""
+    """Return the names in the last tuple, which may be an argument instead of `options`."""
+    tuples = [one for one in ast.walk(node.body[-1]) if isinstance(one, ast.Tuple)]
     statement = options_tuple(node)
-    return (
-        [ast.unparse(one) for one in ast.walk(statement) if isinstance(one, ast.Name)][1:]
-        if statement
-        else []
-    )
+    found = statement.value if statement else tuples[-1] if tuples else ast.Tuple([], ast.Load())
+    assert isinstance(found, ast.Tuple)
+    return [ast.unparse(name) for name in found.elts]
 
 
 def with_signature(lines: list[str], node: ast.FunctionDef, wanted: str) -> list[str]:

@@ -116,8 +116,7 @@ def frechet(
         P, Q = skip_in_pair(P, Q, missing)
     if closed:
         return closed_value("frechet", P, Q, {"metric": metric, "p": p, "radius": radius}, cutoff)
-    options = (metric, p, radius, workers, prune, cutoff)
-    return compiled_frechet(P, Q, options)
+    return compiled_frechet(P, Q, (metric, p, radius, workers, prune, cutoff))
 
 
 # Signature: frechet without cutoff, missing, closed
