@@ -232,7 +232,7 @@ void CurvesBeside::enclose(const WarpingOptions& options, const PackedCurve& cur
         BandedValues& boxes = boxes_[static_cast<std::size_t>(c)];
         if (boxes.assign(columns_, n, window)) {
             std::reverse_copy(points, points + n, reversed_.data());
-            boxes.enclose(reversed_.data(), active_level().kernels->extremes);
+            boxes.enclose(reversed_.data(), n, 1, active_level().kernels->extremes);
             beside.low[c] = boxes.each().low + last;
             beside.high[c] = boxes.each().high + last;
         } else {

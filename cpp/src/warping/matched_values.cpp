@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "warping/kernels/strip.hpp"
-
 namespace curvewise::warping {
 std::ptrdiff_t merge_intervals(const double* intervals, std::ptrdiff_t count, double most_gap,
                                double* merged) {
@@ -56,27 +54,30 @@ bool BandedValues::assign(std::ptrdiff_t count, std::ptrdiff_t size,
     return true;
 }
 
-void BandedValues::enclose(const double* curve, kernels::ExtremesFunction extremes) {
-    const std::ptrdiff_t runs = begins_.back() + 1, values = runs + length_ - 1;
-    const std::ptrdiff_t room = values + kernels::padding;
-    continued_.reserve(room);
-    all_low_.reserve(room);
-    all_high_.reserve(room);
+void BandedValues::enclose(const double* curve, std::ptrdiff_t stride, std::ptrdiff_t dim,
+                           kernels::ExtremesFunction extremes) {
+    const std::ptrdiff_t values = runs() + length_ - 1;
+    continued_.reserve(room());
+    for (runtime::AlignedBuffer* buffer : {&all_low_, &all_high_}) buffer->reserve(dim * room());
+    if (!is_every_run_) {
+        for (runtime::AlignedBuffer* buffer : {&low_, &high_}) buffer->reserve(dim * room());
+    }
     double* const continued = continued_.data();
     double* const from = continued - first_;
-    std::fill(continued, from, curve[0]);
-    std::copy_n(curve, size_, from);
-    std::fill(from + size_, continued + values, curve[size_ - 1]);
-    extremes({continued, runs, length_, all_low_.data(), all_high_.data()});
-    is_new_ = false;
-    if (is_every_run_) return;
-    low_.reserve(count_ + kernels::padding);
-    high_.reserve(count_ + kernels::padding);
-    for (std::ptrdiff_t k = 0; k < count_; ++k) {
-        const std::ptrdiff_t begin = begins_[static_cast<std::size_t>(k)];
-        low_.data()[k] = all_low_.data()[begin];
-        high_.data()[k] = all_high_.data()[begin];
+    for (std::ptrdiff_t c = 0; c < dim; ++c, curve += stride) {
+        const std::ptrdiff_t at = c * room();
+        std::fill(continued, from, curve[0]);
+        std::copy_n(curve, size_, from);
+        std::fill(from + size_, continued + values, curve[size_ - 1]);
+        extremes({continued, runs(), length_, all_low_.data() + at, all_high_.data() + at});
+        if (is_every_run_) continue;
+        for (std::ptrdiff_t k = 0; k < count_; ++k) {
+            const std::ptrdiff_t begin = at + begins_[static_cast<std::size_t>(k)];
+            low_.data()[at + k] = all_low_.data()[begin];
+            high_.data()[at + k] = all_high_.data()[begin];
+        }
     }
+    is_new_ = false;
 }
 
 }  // namespace curvewise::warping

@@ -1,14 +1,15 @@
-// For curves in one dimension: the values of one curve to which the points of the other may be
-// matched, as intervals. A point costs at least its distance to the nearest interval.
+// The values of one curve to which the points of the other may be matched, as intervals of each
+// coordinate. A point costs at least its distance to the nearest interval, or box.
 //
-// Without a band, these are the values of all runs of the curve, the same for every point. Boxes
-// that overlap, or nearly, are merged. Few remain, since a curve passes most values more than once.
-// With a band, each point has the interval of the points in its band, the bound of Keogh &
-// Ratanamahatana (2005). The extremes of runs of points come from runs a quarter as long, in SIMD.
-// This takes O((n + m) log(window)) for all points, in SIMD less time than the O(n + m) of running
-// extremes.
+// In one dimension and without a band, these are the values of all runs of the curve, the same for
+// every point. Boxes that overlap, or nearly, are merged. Few remain, since a curve passes most
+// values more than once. With a band, each point has the box of the points in its band, the bound
+// of Keogh & Ratanamahatana (2005; several coordinates: Rath & Manmatha 2003). The extremes of runs
+// of points come from runs a quarter as long, in SIMD. This takes O((n + m) d log(window)) for all
+// points, in SIMD less time than the O((n + m) d) of running extremes.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 
@@ -16,6 +17,7 @@
 #include "runtime/scratch.hpp"
 #include "warping/band.hpp"
 #include "warping/kernels/boxes.hpp"
+#include "warping/kernels/strip.hpp"
 
 namespace curvewise::warping {
 
@@ -32,17 +34,28 @@ class BandedValues {
     bool assign(std::ptrdiff_t count, std::ptrdiff_t size, std::optional<std::ptrdiff_t> window);
     // Whether enclose() has not been called since the numbers changed.
     bool is_new() const noexcept { return is_new_; }
-    void enclose(const double* curve, kernels::ExtremesFunction extremes);
+    // Coordinate c of the curve begins at curve + c * stride.
+    void enclose(const double* curve, std::ptrdiff_t stride, std::ptrdiff_t dim,
+                 kernels::ExtremesFunction extremes);
 
-    // The interval of each point for the kernel, which needs the points besides.
+    // The box of each point for the kernel, which needs the points besides.
     kernels::PointsAndBoxes each() const noexcept {
         kernels::PointsAndBoxes own{};
         own.low = (is_every_run_ ? all_low_ : low_).data();
         own.high = (is_every_run_ ? all_high_ : high_).data();
+        own.corner_stride = room();
         return own;
     }
 
    private:
+    // The number of runs, from the first that a point has to the last.
+    std::ptrdiff_t runs() const noexcept { return begins_.back() + 1; }
+    // Of a coordinate, in each of the buffers.
+    std::ptrdiff_t room() const noexcept {
+        return runtime::AlignedBuffer::rounded(std::max(runs() + length_ - 1, count_) +
+                                               kernels::padding);
+    }
+
     std::ptrdiff_t count_ = -1;
     std::ptrdiff_t size_ = -1;
     bool is_limited_ = false;

@@ -13,8 +13,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // With fewer cells, the table is swept as fast as the points are compared with boxes.
 constexpr std::ptrdiff_t fewest_cells = 1 << 10;
-// In one dimension with a band, where each point has a single box.
+// With a band, where each point has a single box.
 constexpr std::ptrdiff_t fewest_cells_of_lines = 1 << 6;
+
+// In several dimensions, the bound of one box for each point takes less time than that of several
+// boxes, which is larger. The latter pays where a table has more cells than these, divided by d^2.
+constexpr std::ptrdiff_t most_narrow_cells = 5 << 15;
 
 // With more, the pruning of a single pair, which searches for its bounds, is the faster way.
 constexpr std::ptrdiff_t most_narrowed_cells = 3 << 18;
@@ -82,10 +86,23 @@ PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, co
       tree_(packed, PointOrder::forward),
       first_(options, kept, P, tree_),
       they_add_(is_symmetric2()) {
-    if (!is_banded_line()) return;
-    reversed_.reserve(packed.size() + kernels::padding);
-    std::reverse_copy(packed.data(), packed.data() + packed.size(), reversed_.data());
-    std::fill_n(reversed_.data() + packed.size(), kernels::padding, 0.0);
+    if (!is_banded()) return;
+    reversed_stride_ = AlignedBuffer::rounded(packed.size() + kernels::padding);
+    reversed_.reserve(packed.dim() * reversed_stride_);
+    for (std::ptrdiff_t c = 0; c < packed.dim(); ++c) {
+        const double* const from = packed.data() + c * packed.stride();
+        double* const to = reversed_.data() + c * reversed_stride_;
+        std::reverse_copy(from, from + packed.size(), to);
+        std::fill(to + packed.size(), to + reversed_stride_, 0.0);
+    }
+}
+
+bool PairBounds::has_narrow_band(std::ptrdiff_t m) const noexcept {
+    const std::ptrdiff_t n = P_.size(), dim = tree_.dim();
+    const auto window = options_.window.between(n, m);
+    return !is_line() && window && *window < m &&
+           n * (2 * *window + 1) <= most_narrow_cells / (dim * dim) &&
+           Band(n, m, window).is_limited();
 }
 
 void BandedBoxes::assign(std::ptrdiff_t count, PointOrder order, std::ptrdiff_t size,
@@ -128,7 +145,7 @@ double PairBounds::combined(double rows, double columns, double first_row,
 // Whether differences add up to at most the difference between the ends, so that rounding changes
 // each by a few units in its last place. No square of a difference is too small for that.
 bool PairBounds::has_ways_through(const PackedCurve& q) const noexcept {
-    return options_.rule == kernels::Rule::dtw_symmetric1 &&
+    return is_line() && options_.rule == kernels::Rule::dtw_symmetric1 &&
            (metric_ != Metric::sqeuclidean || PackedPair{P_, q}.squares_are_in_domain());
 }
 
@@ -192,16 +209,18 @@ double PairBounds::column_bound(std::ptrdiff_t j, const PackedCurve& q) {
 }
 
 double PairBounds::undivided(std::ptrdiff_t j, const PackedCurve& q, int level) {
-    if (is_line() && level == 1) return column_bound(j, q);
-    if (is_line() && level == point_level) return 0.0;  // it was level 2
-    if (is_line() || level == point_level) return point_bound(j, q);
+    const bool has_two_levels = is_line() || has_narrow_band(q.size());
+    if (has_two_levels && level == 1) return column_bound(j, q);
+    if (has_two_levels && level == point_level) return 0.0;  // it was level 2
+    if (has_two_levels || level == point_level) return point_bound(j, q);
     return with_norm(first_.box_metric(),
                      [&](auto norm) { return run_bound<decltype(norm)>(j, level); });
 }
 
 double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
     const std::ptrdiff_t n = P_.size(), m = q.size();
-    const bool is_short = n * m < (is_banded_line() ? fewest_cells_of_lines : fewest_cells);
+    const bool has_boxes_of_points = is_line() ? is_banded() : has_narrow_band(m);
+    const bool is_short = n * m < (has_boxes_of_points ? fewest_cells_of_lines : fewest_cells);
     if (!is_bounded(j) || is_short) return 0.0;
     const double bound = undivided(j, q, level);
     if (is_frechet()) return bound;
@@ -226,7 +245,8 @@ void PairBounds::compute_row_terms(std::ptrdiff_t j, const PackedCurve& q) {
     they_add_ = is_symmetric2();
     rows_are_reversed_ = false;
     const auto window = options_.window.between(P_.size(), q.size());
-    if (is_line() && values_of_rows_.assign(P_.size(), q.size(), window)) {
+    if ((is_line() || has_narrow_band(q.size())) &&
+        values_of_rows_.assign(P_.size(), q.size(), window)) {
         they_add_ = they_add_ || has_ways_through(q);
         return compute_banded_row_terms(j, q);
     }
@@ -242,17 +262,19 @@ void PairBounds::compute_row_terms(std::ptrdiff_t j, const PackedCurve& q) {
 void PairBounds::compute_banded_row_terms(std::ptrdiff_t j, const PackedCurve& q) {
     if (has_ways_through(q)) {
         compute_column_terms(j, q);
-        values_of_rows_.enclose(nearest_values_.data(), extremes_);
+        values_of_rows_.enclose(nearest_values_.data(), q.size(), 1, extremes_);
     } else {
-        values_of_rows_.enclose(q.data(), extremes_);
+        values_of_rows_.enclose(q.data(), q.stride(), q.dim(), extremes_);
     }
     kernels::PointsAndBoxes own = values_of_rows_.each();
     own.points = reversed_.data();
+    own.stride = reversed_stride_;
     own.count = P_.size();
-    own.dim = 1;
+    own.dim = P_.dim();
     row_terms_.reserve(AlignedBuffer::rounded(own.count + kernels::padding));
     own.least = row_terms_.data();
     kernel_(own);
+    first_.finish(row_terms_.data(), own.count);
     rows_are_reversed_ = true;
 }
 
@@ -260,8 +282,11 @@ void PairBounds::compute_column_terms(std::ptrdiff_t j, const PackedCurve& q) {
     if (is_open() || column_terms_of_ == j) return;
     column_terms_of_ = j;
     const auto window = options_.window.between(q.size(), P_.size());
-    if (is_line() && values_of_columns_.assign(q.size(), P_.size(), window)) {
-        if (values_of_columns_.is_new()) values_of_columns_.enclose(reversed_.data(), extremes_);
+    if ((is_line() || has_narrow_band(q.size())) &&
+        values_of_columns_.assign(q.size(), P_.size(), window)) {
+        if (values_of_columns_.is_new()) {
+            values_of_columns_.enclose(reversed_.data(), reversed_stride_, q.dim(), extremes_);
+        }
         kernels::PointsAndBoxes own = values_of_columns_.each();
         if (has_ways_through(q)) {
             nearest_values_.reserve(q.size() + kernels::padding);

@@ -14,12 +14,13 @@
 // level 2 those of Q and P in O(n + m). Further levels do not help.
 //
 // With a window, a point or a run has only the boxes that its band reaches: the bound of Keogh &
-// Ratanamahatana (2005) with several boxes instead of one. In one dimension, the sum over rows and
-// the sum over columns can be added. The rows are then not compared with Q's points, but with the
-// values nearest to Q's points that P holds in their bands: the bound of Lemire (2009). A cell
-// costs at least the way from q to that value, and from there to p. The terms of the last level
-// also bound the cost of the rest of a path. A sweep with a cutoff skips cells that cost too much
-// (live_columns.hpp).
+// Ratanamahatana (2005) with several boxes instead of one. In narrow bands of several dimensions,
+// each point has one box around the points of its band, and the levels are those of one dimension.
+// In one dimension, the sum over rows and the sum over columns can be added. The rows are then not
+// compared with Q's points, but with the values nearest to Q's points that P holds in their bands:
+// the bound of Lemire (2009). A cell costs at least the way from q to that value, and from there to
+// p. The terms of the last level also bound the cost of the rest of a path. A sweep with a cutoff
+// skips cells that cost too much (live_columns.hpp).
 //
 // No bound is above the computed value. Distances to boxes are computed by the monotone operations
 // of the ground distance (kernels/boxes.inl.hpp), and those of the ends in the table's own order,
@@ -107,14 +108,14 @@ class PairBounds {
     // The bound of a level above 0, before it is divided.
     double undivided(std::ptrdiff_t j, const PackedCurve& q, int level);
     bool is_line() const noexcept { return tree_.dim() == 1; }
-    bool is_banded_line() const noexcept {
-        return is_line() && (options_.window.radius || options_.window.fraction);
-    }
+    bool is_banded() const noexcept { return options_.window.radius || options_.window.fraction; }
+    // Whether each point has a box for itself, in several dimensions.
+    bool has_narrow_band(std::ptrdiff_t m) const noexcept;
     BoxLevel point_level_boxes() const noexcept;
     bool is_symmetric2() const noexcept { return options_.rule == kernels::Rule::dtw_symmetric2; }
     bool has_ways_through(const PackedCurve& q) const noexcept;
     void compute_row_terms(std::ptrdiff_t j, const PackedCurve& q);
-    // In one dimension, within a band and without open ends.
+    // Of boxes for each point, within a band and without open ends.
     void compute_banded_row_terms(std::ptrdiff_t j, const PackedCurve& q);
     void compute_column_terms(std::ptrdiff_t j, const PackedCurve& q);
     // The distances of `points` to the nearest of these boxes.
@@ -143,7 +144,8 @@ class PairBounds {
     BandedBoxes boxes_of_columns_;
     BandedValues values_of_rows_;
     BandedValues values_of_columns_;
-    AlignedBuffer reversed_;        // P, if each of its points has a value
+    AlignedBuffer reversed_;  // P, if its points may have a box each, by coordinate
+    std::ptrdiff_t reversed_stride_ = 0;
     AlignedBuffer nearest_values_;  // nearest to Q's points, among those of their bands in P
     AlignedBuffer merged_;          // boxes of P, in one dimension
     AlignedBuffer merged_of_kept_;  // of Q

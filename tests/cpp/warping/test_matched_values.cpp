@@ -1,5 +1,5 @@
-// The intervals of one-dimensional curves: with a band, the intervals of the points in it; without
-// a band, one interval more than the gaps between the values.
+// With a band, the boxes of the points in it; without a band and in one dimension, one interval
+// more than the gaps between the values.
 #include <algorithm>
 #include <vector>
 
@@ -26,18 +26,25 @@ void has_intervals_of_band(std::ptrdiff_t n, const Curve& Q, std::ptrdiff_t wind
     CHECK_EQUAL(values.assign(n, m, window), band.is_limited());
     if (!band.is_limited()) return;
     CHECK(values.is_new());
-    const std::vector<double> reversed(Q.values().rbegin(), Q.values().rend());
-    values.enclose(reversed.data(), level.kernels->extremes);
+    const std::ptrdiff_t stride = m + 3;
+    std::vector<double> reversed(static_cast<std::size_t>(Q.dim() * stride));
+    for (std::ptrdiff_t c = 0; c < Q.dim(); ++c) {
+        for (std::ptrdiff_t j = 0; j < m; ++j) {
+            reversed[static_cast<std::size_t>(c * stride + m - 1 - j)] = Q(j, c);
+        }
+    }
+    values.enclose(reversed.data(), stride, Q.dim(), level.kernels->extremes);
     CHECK(!values.is_new());
     const kernels::PointsAndBoxes intervals = values.each();
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
+    for (std::ptrdiff_t k = 0; k < n * Q.dim(); ++k) {
+        const std::ptrdiff_t i = k / Q.dim(), c = k % Q.dim();
         const warping::ColumnRange range = band.columns(i);
-        double low = Q(range.first, 0), high = low;
+        double low = Q(range.first, c), high = low;
         for (std::ptrdiff_t j = range.first; j <= range.last; ++j) {
-            low = std::min(low, Q(j, 0));
-            high = std::max(high, Q(j, 0));
+            low = std::min(low, Q(j, c));
+            high = std::max(high, Q(j, c));
         }
-        const std::ptrdiff_t place = n - 1 - i;
+        const std::ptrdiff_t place = c * intervals.corner_stride + n - 1 - i;
         // Where the curves have as many points each, no wider ones, either.
         CHECK(n == m ? intervals.low[place] == low : intervals.low[place] <= low);
         CHECK(n == m ? intervals.high[place] == high : intervals.high[place] >= high);
@@ -49,7 +56,7 @@ void intervals_hold_the_points_of_the_band() {
     for (int round = 0; round < 400; ++round) {
         const std::ptrdiff_t n = 2 + random.index(60);
         const std::ptrdiff_t m = round % 2 == 0 ? n : 2 + random.index(60);
-        const Curve Q = random.curve(m, 1);
+        const Curve Q = random.curve(m, 1 + round % 3);
         const std::ptrdiff_t window = 1 + random.index(std::max(n, m));
         for (const warping::Level& level : warping::available_levels()) {
             has_intervals_of_band(n, Q, window, level);

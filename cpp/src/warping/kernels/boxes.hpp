@@ -20,13 +20,15 @@ struct PointsAndBoxes {
     // never fall, or never rise, from point to point.
     const std::ptrdiff_t* first_box;
     const std::ptrdiff_t* last_box;
-    // In one dimension, if not null: each point has its own interval, and there are no boxes.
-    // Padded.
+    // If not null: each point has its own box, and there are no others. Coordinate c of the lowest
+    // corner of point i's is low[c * corner_stride + i]; padded.
     const double* low;
     const double* high;
+    std::ptrdiff_t corner_stride;
     // The distance of every point to the nearest of its boxes; padded.
     double* least;
-    // If each point has its own interval, and not null: the nearest number in it; padded.
+    // In one dimension, if each point has its own box, and not null: the nearest number in it;
+    // padded.
     double* nearest;
 };
 

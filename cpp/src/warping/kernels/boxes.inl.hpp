@@ -4,19 +4,25 @@
 // too, so the bound is exact: no point within a box is nearer. The kernel of each level includes
 // this file inside its anonymous namespace.
 
-// Each point's own interval.
-template <class Norm, bool keeps_nearest>
+// Each point's own box.
+template <class Norm, int fixed_dim, bool keeps_nearest>
 void least_of_own(const PointsAndBoxes& sides) noexcept {
     const double* const points = sides.points;
     const double* const low = sides.low;
     const double* const high = sides.high;
     double* const least = sides.least;
     double* const nearest = sides.nearest;
+    const std::ptrdiff_t dim = fixed_dim > 0 ? fixed_dim : sides.dim;
     for (std::ptrdiff_t k = 0, count = sides.count; k < count; k += width) {
-        const Pack x = load(points + k);
-        const Pack inside = simd::pmax(simd::pmin(x, load(high + k)), load(low + k));
-        store(least + k, Norm::finish(Norm::add(simd::pset1<Pack>(0.0), simd::psub(x, inside))));
-        if (keeps_nearest) store(nearest + k, inside);
+        Pack sum = simd::pset1<Pack>(0.0);
+        for (std::ptrdiff_t c = 0; c < dim; ++c) {
+            const Pack x = load(points + c * sides.stride + k);
+            const std::ptrdiff_t corner = c * sides.corner_stride + k;
+            const Pack inside = simd::pmax(simd::pmin(x, load(high + corner)), load(low + corner));
+            sum = Norm::add(sum, simd::psub(x, inside));
+            if (keeps_nearest) store(nearest + k, inside);
+        }
+        store(least + k, Norm::finish(sum));
     }
 }
 
@@ -37,9 +43,10 @@ double sum(const double* terms, std::ptrdiff_t count) noexcept {
 
 template <class Norm, int fixed_dim>
 void least(const PointsAndBoxes& sides) noexcept {
-    if (fixed_dim == 1 && sides.low != nullptr) {
-        return sides.nearest != nullptr ? least_of_own<Norm, true>(sides)
-                                        : least_of_own<Norm, false>(sides);
+    if (sides.low != nullptr) {
+        return fixed_dim == 1 && sides.nearest != nullptr
+                   ? least_of_own<Norm, fixed_dim, fixed_dim == 1>(sides)
+                   : least_of_own<Norm, fixed_dim, false>(sides);
     }
     const std::ptrdiff_t dim = fixed_dim > 0 ? fixed_dim : sides.dim;
     for (std::ptrdiff_t k = 0; k < sides.count; k += width) {
