@@ -12,7 +12,7 @@ O(n m).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple, SupportsFloat
 
@@ -69,8 +69,7 @@ def dtw(
     if closed:
         check_closed(locals())
         return closed_dtw(P, Q, metric, p, radius).distance
-    steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
-    ends = _Ends.checked(open_begin, open_end, relax, normalize)
+    steps, ends = _Steps.checked(locals()), _Ends.checked(locals())
     if normalize and not any(ends.relax):
         steps.check_normalization()
     table = _accumulate(P, Q, metric, p, radius, steps, window, ends)
@@ -99,8 +98,7 @@ def dtw_path(
     if closed:
         check_closed(locals())
         return closed_dtw(P, Q, metric, p, radius)
-    steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
-    ends = _Ends.checked(open_begin, open_end, relax)
+    steps, ends = _Steps.checked(locals()), _Ends.checked(locals())
     table = _accumulate(P, Q, metric, p, radius, steps, window, ends)
     distance = float(table.restored(table.costs[table.end]))
     if table.path is not None:
@@ -129,8 +127,7 @@ def dtw_table(
     relax: Relax = None,
 ) -> Array:
     """As for :func:`dtw`."""
-    steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
-    ends = _Ends.checked(open_begin, open_end, relax)
+    steps, ends = _Steps.checked(locals()), _Ends.checked(locals())
     table = _accumulate(P, Q, metric, p, radius, steps, window, ends)
     return np.array(table.restored(table.costs))
 
@@ -214,17 +211,17 @@ class _Ends(NamedTuple):
     normalize: bool
 
     @classmethod
-    def checked(
-        cls, open_begin: bool, open_end: bool, relax: Relax, normalize: bool = False
-    ) -> _Ends:
-        """Check the numbers of points that may be left out."""
+    def checked(cls, given: Mapping[str, Any]) -> _Ends:
+        """Check the numbers of points that may be left out; `given` has all arguments by name."""
+        ends = given["open_begin"], given["open_end"]
+        relax, normalize = given["relax"], given.get("normalize", False)
         if relax is None:
-            return cls(open_begin, open_end, (0, 0, 0, 0), normalize)
+            return cls(*ends, (0, 0, 0, 0), normalize)
         advice = "give four whole numbers >= 0, or None"
         if isinstance(relax, str | bytes) or not hasattr(relax, "__len__") or len(relax) != 4:
             raise ValueError(f"relax is {relax!r}; {advice}")
         numbers = tuple(whole_number("relax", number, 0, advice) for number in relax)
-        return cls(open_begin, open_end, numbers, normalize)
+        return cls(*ends, numbers, normalize)
 
     def starts(self, ground: Array) -> dict[tuple[int, int], float]:
         """Return the cells in which a path may begin, with their costs."""
@@ -250,12 +247,16 @@ class _Steps(NamedTuple):
     is_open: bool
 
     @classmethod
-    def checked(cls, given: Steps, penalty: SupportsFloat, is_open: bool) -> _Steps:
-        """Check both."""
-        cost = real_number("penalty", penalty, 0.0, "give a number >= 0")
-        if isinstance(given, StepPattern):
-            return cls(given, "of one's own", cost, is_open)
-        return cls(StepPattern.named(given), given, cost, is_open)
+    def checked(cls, given: Mapping[str, Any]) -> _Steps:
+        """Check the pattern and its penalty; `given` has all arguments by name."""
+        steps = given["step_pattern"]
+        is_own = isinstance(steps, StepPattern)
+        return cls(
+            pattern=steps if is_own else StepPattern.named(steps),
+            name="of one's own" if is_own else steps,
+            penalty=real_number("penalty", given["penalty"], 0.0, "give a number >= 0"),
+            is_open=given["open_begin"] or given["open_end"],
+        )
 
     @property
     def per(self) -> str:
