@@ -75,14 +75,17 @@ class PreparedCurve {
     PreparedCurve(const CurveArray& P, const py::object& name, const py::dict& options)
         : measure_(read_measure(name, options)), n_(P.shape(0)), prepared_(prepare(P)) {}
 
-    double value(const CurveArray& Q) const {
+    double value(const CurveArray& Q, double cutoff) const {
         const CurveView q = view(Q);
+        BatchOptions batch;
+        batch.cutoff = cutoff;
         return interruptible(work(1.0, static_cast<double>(q.size()), static_cast<double>(q.dim())),
-                             py::none(), [&](Control* control) { return prepared_(q, control); });
+                             py::none(),
+                             [&](Control* control) { return prepared_(q, batch, control); });
     }
 
-    py::array_t<double> values(const py::list& Qs, const py::object& workers) const {
-        const BatchOptions batch = batch_options(workers, BatchOptions{}.cutoff);
+    py::array_t<double> values(const py::list& Qs, const py::object& workers, double cutoff) const {
+        const BatchOptions batch = batch_options(workers, cutoff);
         const Curves curves(Qs);
         py::array_t<double> out(static_cast<py::ssize_t>(curves.views.size()));
         double* const data = out.mutable_data();

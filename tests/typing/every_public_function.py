@@ -81,7 +81,7 @@ distances = curvewise.pdist(curve for curve in (P, Q))
 slopes: FloatArray = curves.derivative(P)
 layout: type[UserWarning] = curvewise.LayoutWarning
 prepared = curvewise.Prepared(listed, "dtw", window=4)
-number = prepared(Q)
+number = prepared(Q) + prepared(Q, cutoff=2)
 names: list[str] = curvewise.available_measures()
 
 index = curvewise.Index([P, Q], "dtw", window=3)

@@ -5,7 +5,7 @@ The work is done by the compiled library.
 
 from __future__ import annotations
 
-from typing import Any, SupportsIndex, overload
+from typing import Any, SupportsFloat, SupportsIndex, overload
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from ..curves.labels import labelled_column, unlabelled
 from ..curves.layouts import ask_about_curves, settled_layout
 from ..curves.reference_systems import check_reference_systems
 from ..measures.registry import MeasureName
-from .pairwise import _check_names
+from .pairwise import _check_names, checked_limit
 
 __all__ = ["Prepared"]
 
@@ -86,10 +86,28 @@ class Prepared:
         return _prepare, (self._curve, self._columns, self._measure, self._options)
 
     @overload
-    def __call__(self, Q: Array, *, workers: SupportsIndex = Default.workers) -> float: ...
+    def __call__(
+        self,
+        Q: Array,
+        *,
+        workers: SupportsIndex = Default.workers,
+        cutoff: SupportsFloat | None = None,
+    ) -> float: ...
     @overload
-    def __call__(self, Q: Any, *, workers: SupportsIndex = Default.workers) -> Any: ...
-    def __call__(self, Q: Any, *, workers: SupportsIndex = Default.workers) -> Any:
+    def __call__(
+        self,
+        Q: Any,
+        *,
+        workers: SupportsIndex = Default.workers,
+        cutoff: SupportsFloat | None = None,
+    ) -> Any: ...
+    def __call__(
+        self,
+        Q: Any,
+        *,
+        workers: SupportsIndex = Default.workers,
+        cutoff: SupportsFloat | None = None,
+    ) -> Any:
         """Return the measure of P and Q, or of P and each curve of a list.
 
         Parameters
@@ -99,6 +117,8 @@ class Prepared:
             dimensions as `P`. Labelled collections, as for :func:`cdist`, are also lists of curves.
         workers : int
             Number of threads for a list, as for :func:`cdist`.
+        cutoff : float, optional
+            Upper limit for this call: return inf for distances above it, which takes less time.
 
         Returns
         -------
@@ -110,17 +130,20 @@ class Prepared:
         ValueError, TypeError
             As for the measure, and for :func:`cdist`.
         """
+        limit = np.inf
+        if cutoff is not None:
+            limit = checked_limit("cutoff", cutoff, self._measure, self._options)
         if isinstance(Q, np.ndarray) and Q.ndim < 3:  # the usual case, without names
-            return self._prepared.value(as_curve(Q, "Q"))
+            return self._prepared.value(as_curve(Q, "Q"), limit)
         check_reference_systems(self._options, Q=Q)
         Q, labels = unlabelled(Q, "Q")
         if labels is not None or self._is_list(Q):
             for i, curve in enumerate(Q):
                 check_column_names(self._columns, "P", column_names(curve), f"Q[{i}]")
             curves = as_curve_list(Q, "Q", keep_float32=True, layout="channels_last")
-            return labelled_column(self._prepared.values(curves, workers), labels)
+            return labelled_column(self._prepared.values(curves, workers, limit), labels)
         check_column_names(self._columns, "P", column_names(Q), "Q")
-        return self._prepared.value(as_curve(Q, "Q"))
+        return self._prepared.value(as_curve(Q, "Q"), limit)
 
     def _is_list(self, Q: Any) -> bool:
         if isinstance(Q, list | tuple):

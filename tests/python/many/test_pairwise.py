@@ -236,3 +236,19 @@ def test_the_diagonal_is_that_of_single_calls() -> None:
         expected = [curvewise.edr(curve, curve, **options) for curve in (level, line)]
         assert found.diagonal().tolist() == expected
     assert curvewise.cdist([level, line], measure="edr", cutoff=0.5)[0, 0] == np.inf
+
+
+@pytest.mark.parametrize("measure", ["dtw", "frechet", "area", "frechet_continuous"])
+def test_a_cutoff_of_a_call_of_a_prepared_curve(measure):
+    P, *others = np.random.default_rng(3).normal(size=(9, 12, 2)).cumsum(axis=1)
+    prepared = curvewise.Prepared(P, measure)
+    values = prepared(others)
+    limit = np.median(values)
+    expected = np.where(values > limit, np.inf, values)
+    assert np.isinf(expected).any()
+    assert prepared(others, cutoff=limit, workers=2).tolist() == expected.tolist()
+    assert [prepared(Q, cutoff=limit) for Q in others] == expected.tolist()
+    assert [prepared(Q.tolist(), cutoff=limit) for Q in others] == expected.tolist()
+    assert prepared(others).tolist() == values.tolist()
+    with pytest.raises(ValueError, match="cutoff is -1; give a number >= 0, or None"):
+        prepared(others, cutoff=-1)
