@@ -289,7 +289,7 @@ def with_signature(lines: list[str], node: ast.FunctionDef, wanted: str) -> list
         copied = {key: text for key, text in given.items() if key not in left_out}
         parameters = copied
         lines = with_options(lines, node, order, given, left_out)
-        lines = with_references(lines, node, list(copied), set(given))
+        lines = with_references(lines, node, list(copied), set(given), name)
     else:
         for group in names_in(wanted):
             original, _, names = group.strip().removesuffix(")").partition("(")
@@ -319,24 +319,29 @@ def with_options(
 
 
 def with_references(
-    lines: list[str], node: ast.FunctionDef, names: list[str], known: set[str]
+    lines: list[str], node: ast.FunctionDef, names: list[str], known: set[str], original: str
 ) -> list[str]:
-    """Write the names of parameters whose description is that of the original."""
+    """Write the names of parameters whose description is that of the original.
+
+    Names that exceed a line are two entries or more, of which the last has further sentences.
+    """
     docstring = node.body[0]
-    for place in range(docstring.lineno, docstring.end_lineno or 0):
-        entry = ENTRY.fullmatch(lines[place].strip())
-        if not entry or " : " in entry[0] or not known & {*entry[1].split(", ")}:
-            continue
-        beginning = [name for name in entry[1].split(", ") if name not in known]
-        described = {
-            name
-            for line in lines[docstring.lineno : docstring.end_lineno]
-            if (other := ENTRY.fullmatch(line.strip())) and " : " in line
-            for name in other[1].split(", ")
-        }
-        text = ", ".join([*beginning, *(name for name in names if name not in described)])
-        return [*lines[:place], f"    {text}", *lines[place + 1 :]]
-    return lines
+    entries = {
+        place: found
+        for place in range(docstring.lineno, docstring.end_lineno or 0)
+        if (found := ENTRY.fullmatch(lines[place].strip()))
+    }
+    described = {one for e in entries.values() if " : " in e[0] for one in e[1].split(", ")}
+    shared = [k for k, e in entries.items() if " : " not in e[0] and known & {*e[1].split(", ")}]
+    if not shared:
+        return lines
+    first = [name for name in entries[shared[0]][1].split(", ") if name not in known]
+    text = ", ".join([*first, *(name for name in names if name not in described)])
+    *rows, last = [row.removesuffix(",") for row in textwrap.wrap(text, WIDTH - 4)]
+    written = [
+        line for row in rows for line in (f"    {row}", f"        As for :func:`{original}`.")
+    ]
+    return [*lines[: shared[0]], *written, f"    {last}", *lines[shared[-1] + 1 :]]
 
 
 def rewritten(text: str) -> str:

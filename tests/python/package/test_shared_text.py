@@ -62,3 +62,14 @@ def test_an_entry_that_lacks_is_an_error(writer: ModuleType) -> None:
     text = DTW.read_text(encoding="utf-8").replace("    prune : bool", "    pruned : bool")
     with pytest.raises(ValueError, match=r"^no entry 'prune'$"):
         writer.rewritten(text)
+
+
+def test_names_that_exceed_a_line_are_several_entries(
+    writer: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = DTW.read_text(encoding="utf-8")
+    monkeypatch.setattr(writer, "WIDTH", 70)
+    narrow = writer.rewritten(text)
+    assert len(re.findall(r"As for :func:`dtw`\.\n    \w+, \w+", narrow)) > 3
+    monkeypatch.setattr(writer, "WIDTH", 100)
+    assert writer.rewritten(narrow) == text
