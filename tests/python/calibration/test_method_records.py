@@ -68,7 +68,7 @@ def test_a_forgotten_part_is_an_error():
     class Empty(Method, name="x", keeps_curves=False, needs_squares=False):
         pass
 
-    with pytest.raises(TypeError, match=r"course.*fewest_runs.*near_optimum"):
+    with pytest.raises(TypeError, match=r"course.*fewest_runs"):
         Empty()
 
 

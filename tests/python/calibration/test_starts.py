@@ -147,6 +147,8 @@ def test_what_may_be_said_of_the_ends():
     assert still.reason.startswith("no start found a better fit than it began with")
     assert still.message.startswith("no step gained anything: the start is a minimum already, or")
     assert finish_of([ended(0.0, first=0.0)], 1e-9, 1).converged  # begun at a perfect fit
+    there = ended(4.999, first=4.999, independent=False)  # begun where others had ended
+    assert finish_of([best, ended(5.0, first=9.0), ended(5.01), there], 0.0, 3).converged
     misled = finish_of([best, ended(5.0), ended(5.0, is_misled=True)], 0.0, 2)
     assert not misled.converged
     assert misled.reason.startswith("the model's curves jump")

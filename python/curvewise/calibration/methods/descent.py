@@ -8,10 +8,10 @@ start is abandoned if it is far above the best run and predicts only a small par
 If repeated steps do not achieve their predicted reduction, the start continues with a surrogate of
 the value (`lowest_value`).
 
+Starts share runs, but an independent one uses those of others in its trust region alone.
+
 Cost: k + 1 runs for the initial design of k parameters, one run for every step and restart, and up
 to k runs to sample all directions at the end.
-
-A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000).
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 
 from ...curves.inputs import Array
+from ...curves.thinning import Rows
 from ..problem.ledger import Finish
 from ..records.evaluation import Evaluation
 from ..surfaces.kriged_surface import lowest_value
@@ -77,7 +78,8 @@ def simplex_around(centre: Array, step: float, random: np.random.Generator) -> A
 class Descent:
     """The best run of one start, and the region around it in which surrogates are trusted.
 
-    The runs are those of all starts. The start is independent if its place owes nothing to others.
+    The start is independent if it owes nothing to others: neither its place, nor, if the objective
+    has kinks, its surrogates.
     """
 
     def __init__(
@@ -86,6 +88,9 @@ class Descent:
         self._random, self._rules, self._runs = random, rules, runs
         self._stage = GlobalStage(runs, random)
         self._is_independent = is_independent
+        # The runs that it has made, and those of earlier searches; None if it uses all runs.
+        uses_all = runs.inner.is_smooth or not is_independent
+        self._own = None if uses_all else set(range(runs.earlier))
         self._best: int | None = None
         self._last = np.inf
         self._sides = np.ones(runs.points.shape[1])  # of the region, in each direction
@@ -114,7 +119,7 @@ class Descent:
         radius = self._rules.first_radius
         simplex = simplex_around(start, radius / 2.0, self._random)
         is_known = not self._runs.least_known(start, radius / 2.0)
-        is_own = self._is_independent and start.size <= _FEW
+        is_own = self._own == set() or (self._is_independent and start.size <= _FEW)
         if self._runs.has_slopes or (is_known and not is_own):
             yield from self._run(start[np.newaxis])
         if self._best is None:
@@ -195,11 +200,22 @@ class Descent:
             most = (centre.size + 1) * (centre.size + 2) // 2
             points, values = self._runs.values_near(self._best, most)
             return lowest_value(points, values, centre, low, high, self._random)
-        surrogate = self._runs.surrogate(self._best, _FAR * radius)
+        surrogate = self._runs.surrogate(self._best, _FAR * radius, self._seen(radius))
         inner = self._runs.inner
         point = inner.lowest(surrogate, centre, low, high)
         before, after = inner.values(surrogate, np.array((centre, point)))
         return point, float(before - after)
+
+    def _seen(self, region: float) -> Rows | None:
+        """Return the runs for a surrogate: an independent start's own, and those in its region.
+
+        Others draw it to minima that are known already, so that all starts end there.
+        """
+        if self._own is None:
+            return None
+        away = np.abs(self._runs.points - self.centre).max(axis=1)
+        away[list(self._own)] = 0.0
+        return np.flatnonzero(away <= min(region, self._rules.first_radius))
 
     def _is_behind(self, promised: float) -> bool:
         """Return whether the best run of all starts is too far ahead of the predicted value."""
@@ -216,6 +232,8 @@ class Descent:
         for point, run in zip(points, (yield points), strict=True):
             number = self._runs.add(point, run)
             if number is not None:
+                if self._own is not None:
+                    self._own.add(number)
                 self._last = self._runs.values[number]
                 if self._last < self.value:
                     self._best = number
@@ -257,7 +275,7 @@ class Descent:
             for _ in range(2):
                 if self.value > (1.0 + _CLOSE) * min(self._runs.values):
                     return False
-                found = self._stage.lowest(self._best, reach * self._sides)
+                found = self._stage.lowest(self._best, reach * self._sides, self._seen(reach))
                 if found is None or found[1] <= max(least, _OF_VALUE * self.value):
                     break
                 yield from self._run(found[0][np.newaxis])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from importlib import import_module
-from types import ModuleType
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -81,18 +81,13 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
         """Return the runs of two generations."""
         return 2 * self._generation(parameters)
 
-    def near_optimum(self) -> Global:
-        """Return the same: it looks everywhere."""
-        return self
-
     def _generation(self, parameters: int) -> int:
         """Return how many points a generation of the first round has."""
         return self.popsize or 2 * (4 + int(3.0 * math.log(parameters)))
 
     def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
         """Minimise by rounds of CMA-ES."""
-        cma = _cma()
-        if cma is None:
+        if find_spec("cma") is None:
             evolution = DifferentialEvolution(tol=SMALL)
             finish = yield from evolution.course(ledger, start, seed)
             return finish._replace(message=f"{_WITHOUT}{finish.message}")
@@ -100,7 +95,7 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
         ends: list[float] = []
         for number in range(self.rounds):
             place = random.random(ledger.dimensions) if number else start
-            ends.append((yield from self._round(cma, ledger, place, number, random)))
+            ends.append((yield from self._round(ledger, place, number, random)))
             good = sum(end <= min(ends) + self._enough(ledger, min(ends)) for end in ends)
             if good > 1:
                 rounds = f"{good} of {len(ends)} rounds within {100 * self.tol:g} %"
@@ -112,15 +107,13 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
         """Return the largest difference between values that count as equal."""
         return max(self.tol * abs(value), ledger.negligible)
 
-    def _round(
-        self, cma: ModuleType, ledger: Ledger, place: Array | None, number: int, random: Any
-    ) -> Any:
+    def _round(self, ledger: Ledger, place: Array | None, number: int, random: Any) -> Any:
         """Run a round from a place (default: the middle); return its best value."""
         k = ledger.dimensions
         generation = self._generation(k) * 2**number
         # cma refuses a single parameter: a second one, which nothing depends on, is added then.
         width = max(k, 2)
-        strategy = cma.CMAEvolutionStrategy(
+        strategy = import_module("cma").CMAEvolutionStrategy(
             np.full(width, 0.5) if place is None else np.append(place, [0.5] * (width - k)),
             _WIDTH,
             {
@@ -143,13 +136,3 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
             if len(values) > patience and max(last) - min(last) <= enough:
                 break
         return min(values)
-
-
-def _cma() -> ModuleType | None:
-    """Return the package cma, or None if it is not installed."""
-    try:
-        return import_module("cma")
-    except ModuleNotFoundError as error:
-        if error.name != "cma":
-            raise
-        return None

@@ -1,19 +1,14 @@
 """The global stage of a search: minima of a surrogate beyond the trust region.
 
 A local search ends in the nearest local minimum, and measures of curves have many close together. A
-surrogate predicts them before the model is run. CMA-ES (`surfaces.evolution`) searches
-two surrogates for the lowest place: the surface through the runs around the best one, and the
-surface through the best hundred runs within all the bounds. The inner search of the measure
-polishes the result.
-
-Near the best run, the search moves along the principal axes of the curves' sensitivity. Steps are
-scaled so that the curves move by the same distance along each axis: parameters with little effect
-on the curves move far, the others little.
+surrogate predicts them before the model is run. CMA-ES (`surfaces.evolution`) searches two
+surrogates: that of the runs around the best one, along the principal axes of the curves'
+sensitivity, and that of the best hundred runs. The inner search polishes the result.
 
 Cost: about 400 evaluations of the measure on predicted curves, and no run of the model.
 
-N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772; D. J. Wales, J. P. K. Doye,
-"Global optimization by basin-hopping", J. Phys. Chem. A 101 (1997) 5111-5116.
+D. J. Wales, J. P. K. Doye, "Global optimization by basin-hopping", J. Phys. Chem. A 101 (1997)
+5111-5116.
 """
 
 from __future__ import annotations
@@ -21,6 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...curves.inputs import Array
+from ...curves.thinning import Rows
 from ..surfaces.evolution import evolved
 from ..surfaces.steps import FEW, SMALL
 from ..surfaces.surfaces import Surface
@@ -39,13 +35,15 @@ class GlobalStage:
     def __init__(self, runs: Runs, random: np.random.Generator) -> None:
         self._runs, self._random = runs, random
 
-    def lowest(self, number: int, reach: Array) -> tuple[Array, float] | None:
+    def lowest(
+        self, number: int, reach: Array, seen: Rows | None = None
+    ) -> tuple[Array, float] | None:
         """Return the lowest place within reaches of a run, and its predicted reduction.
 
-        Return None if a run exists at that place.
+        The surrogate uses the runs `seen`, or all. Return None if a run exists at that place.
         """
         longest = float(reach.max())
-        surface = self._runs.surrogate(number, 2.0 * longest)
+        surface = self._runs.surrogate(number, 2.0 * longest, seen)
         centre = self._runs.points[number]
         axes = self._principal_axes(surface, centre, longest)
         low, high = np.clip(centre - reach, 0.0, 1.0), np.clip(centre + reach, 0.0, 1.0)

@@ -105,7 +105,3 @@ class Auto(Method, name="auto", keeps_curves=True, needs_squares=False):
     def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
         """Return the runs of the two, which are as many."""
         return TrustRegion().fewest_runs(parameters, has_start=has_start)
-
-    def near_optimum(self) -> Method:
-        """Return this method unchanged; the method that it chooses adapts itself."""
-        return self

@@ -1,10 +1,9 @@
 """Several starts of one search, until enough independent ones agree.
 
 Starts run one after the other with one worker, and three in parallel with several. The first start
-is the middle of the bounds. The others are Latin hypercube samples of four points: each of four
-consecutive starts lies in a different quarter of every axis. After the first starts, every second
-one begins where the surrogate through the best runs is lowest (`global_stage`). Such a start takes
-few runs, but it depends on the other starts, so it does not count as agreeing with them.
+is the middle of the bounds. The others are Latin hypercube samples of four points. After the first
+starts, every second one begins where the surrogate through the best runs is lowest
+(`global_stage`). It takes few runs, but depends on the others, so its agreement does not count.
 
 M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
 input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245.
@@ -66,13 +65,7 @@ class Multistart:
         self._ends: list[End] = []
 
     def course(self, start: Array | None) -> Part[Finish]:
-        """Search from a given start alone, or from several; return the joint ending.
-
-        Raises
-        ------
-        RuntimeError
-            If all simulations around the starts fail.
-        """
+        """Search from a given start alone, or from several; return the joint ending."""
         if start is not None:
             first = [self._descent(start, replace(self._rules, is_abandoned=False))]
         else:
@@ -128,11 +121,10 @@ def side_by_side(
 ) -> Part[list[R]]:
     """Drive courses in turns, each to its end; return their results in order.
 
-    The courses take turns in rounds, in a fixed order. After a round in which a course has ended,
-    `more` returns the courses to begin. The points that a course requests are announced to `expect`
-    at once, so that they can run during the turns of the other courses. The result depends on the
-    order of turns alone, not on the number of parallel runs. The first points of all courses are
-    one batch, because a search ends if all of its first batch fails.
+    After a round in which a course has ended, `more` returns the courses to begin. The points that
+    a course requests are announced to `expect` at once, to run during the turns of others. The
+    result depends on the order of turns alone, not on the number of parallel runs. All first points
+    are one batch, because a search ends if all of its first batch fails.
     """
     courses: list[Part[R]] = []
     ended: dict[int, R] = {}

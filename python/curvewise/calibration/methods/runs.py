@@ -51,6 +51,7 @@ class Runs:
         self._slopes: dict[int, Array | None] = {}
         for point, run in ledger.earlier_runs:
             self.add(point, run)
+        self.earlier = len(self.values)  # runs of earlier searches
 
     @property
     def best(self) -> int:
@@ -96,19 +97,21 @@ class Runs:
         spread, directions = np.linalg.eigh(offsets.T @ offsets)
         return list(directions.T[spread < _SPREAD])
 
-    def surrogate(self, number: int, within: float) -> Surface:
+    def surrogate(self, number: int, within: float, seen: Rows | None) -> Surface:
         """Return the plane of a run's derivatives, or the surface through the runs around it."""
         slopes = self._slopes_of(number)
         if slopes is not None:
             return Surfaces(self.points[number], self._vectors[number], slopes)
-        return self.surface(number, within)
+        return self.surface(number, within, seen)
 
-    def surface(self, number: int, within: float) -> KrigedSurface:
-        """Return the surface through the 2 k + 1 nearest runs, and those within a distance."""
-        distances = np.abs(self.points - self.points[number]).max(axis=1)
+    def surface(self, number: int, within: float, seen: Rows | None = None) -> KrigedSurface:
+        """Return the surface through the 2 k + 1 nearest runs seen and those within reach."""
+        among = np.arange(len(self.values)) if seen is None else seen
+        distances = np.abs(self.points[among] - self.points[number]).max(axis=1)
         k = self._ledger.dimensions
         near = np.argsort(distances, kind="stable")[: max(_NEAREST, 3 * k + 3)]
-        return self._through(number, near[: max(2 * k + 1, int(np.sum(distances[near] <= within)))])
+        near = near[: max(2 * k + 1, int(np.sum(distances[near] <= within)))]
+        return self._through(number, among[near])
 
     def surface_through_best(self, most: int) -> KrigedSurface:
         """Return the surface through the `most` best runs, centred on the best."""

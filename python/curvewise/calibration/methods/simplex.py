@@ -69,10 +69,6 @@ class NelderMead(Method, name="nelder-mead", keeps_curves=False, needs_squares=F
         """Return the runs of a simplex and of some steps."""
         return 2 * parameters + 10
 
-    def near_optimum(self) -> NelderMead:
-        """Return the same: its simplex is small already."""
-        return self
-
     def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
         """Minimise from a start, by default the middle of the bounds."""
         begin = np.full(ledger.dimensions, 0.5) if start is None else start

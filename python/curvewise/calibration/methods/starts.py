@@ -150,7 +150,8 @@ def _obstacle(ends: Sequence[End], best: End, negligible: float) -> tuple[str, s
             "several parameter sets have the same best value, because the measure does not "
             "distinguish them; use another measure",
         )
-    if best.value == best.first and best.value > _nothing(ends, negligible):
+    alike = [end for end in ends if are_alike(ends, negligible, [end])]
+    if all(end.value == end.first for end in alike) and best.value > _nothing(ends, negligible):
         return (
             f"no step gained anything: the start is a minimum already, or the measure {_TRY}",
             "no start found a better fit than it began with; compare by another measure",

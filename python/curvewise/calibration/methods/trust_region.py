@@ -128,10 +128,9 @@ class TrustRegion(SurrogateSearch, name="trust-region", keeps_curves=True, needs
 
     Notes
     -----
-    This is composite optimisation: the model is expensive and smooth, the measure is cheap and has
-    kinks. A surrogate replaces the simulated curves, and the measure of the predicted curves is
-    minimised exactly. If the model has a `jacobian`, a plane with its derivatives replaces the
-    surrogate.
+    This is composite optimisation: a surrogate replaces the curves of the model, and the measure of
+    the predicted curves is minimised exactly. If the model has a `jacobian`, a plane with its
+    derivatives is the surrogate.
 
     A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000). S. M. Wild, R. G.
     Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in

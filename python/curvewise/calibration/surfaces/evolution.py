@@ -2,9 +2,8 @@
 
 Generations of points are drawn from a normal distribution. Its mean moves to the better half of
 them, its covariance learns their directions, and its width follows the length of successive steps.
-Small generations converge quickly to one local minimum, which need not be the one at the start. The
-package cma, which `methods.global_search` uses, is not needed here. Cost: members times generations
-evaluations, and about 0.1 ms for each generation.
+Small generations converge quickly to one local minimum, which need not be the one at the start.
+Cost: members times generations evaluations, and about 0.1 ms for each generation.
 
 N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772.
 """

@@ -1,7 +1,6 @@
 """The inner search of a surrogate search: the measure of predicted curves, and its minimum.
 
-The search itself does not depend on the measure. It uses runs as vectors, a surrogate of these
-vectors, and an inner search. Measures of curves differ in the minimum alone. Sums of distances are
+The search itself does not depend on the measure: measures differ here alone. Sums of distances are
 smooth almost everywhere; a quasi-Newton method for functions with kinks follows their gradient, and
 a simplex replaces it for measures without a gradient. A largest distance is a minimax problem
 (`largest_distances`). Sums of squares use residuals as vectors (`sums_of_squares`).

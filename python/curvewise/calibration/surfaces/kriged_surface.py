@@ -3,9 +3,9 @@
 The model has a linear trend and a Matérn kernel (5/2) whose length is a few times the distance of
 the farthest run. Through k + 1 runs it is a plane. Each coordinate is used directly, or as the
 inverse hyperbolic sine of its distance from the central run; the likelihood selects one of the two.
-With the transformation, a run that leaves the test's bounding box by far bends the surface near the
-centre only slightly. The nugget is the variance of the model's own noise, as a fraction of the
-kernel's. Restricted maximum likelihood (REML) estimates it from the runs.
+Transformed, a run far outside the test's box bends the surface only slightly. The nugget, the
+variance of the model's own noise as a fraction of the kernel's, is estimated by restricted maximum
+likelihood (REML).
 
 If the phase of curves depends strongly on the parameters, their surrogate by point number misleads.
 The value varies more smoothly, and `lowest_value` kriges it instead. Cost: O(n^3 + n^2 m) for n
@@ -13,9 +13,7 @@ runs of m coordinates, and O(n m) for a point.
 
 J. Sacks, W. J. Welch, T. J. Mitchell, H. P. Wynn, "Design and analysis of computer experiments",
 Statistical Science 4 (1989) 409-423. H. D. Patterson, R. Thompson, "Recovery of inter-block
-information when block sizes are unequal", Biometrika 58 (1971) 545-554, for REML. S. M. Wild, R. G.
-Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in
-trust-regions", SIAM J. Sci. Comput. 30 (2008) 3197-3219.
+information when block sizes are unequal", Biometrika 58 (1971) 545-554, for REML.
 """
 
 from __future__ import annotations

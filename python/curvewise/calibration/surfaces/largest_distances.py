@@ -2,9 +2,8 @@
 
 The Fréchet distance is the largest of many distances. Its gradient is that of a single pair of
 points and does not lead to the minimum, where as many pairs as there are parameters are equally far
-apart. For a fixed coupling, minimising the largest distance is a minimax problem, solved by
-Madsen's method. Distances are linearised in the parameters, and a linear program finds the step
-within a trust region that minimises the largest of them. A better coupling can only help.
+apart. For a fixed coupling, this is a minimax problem, solved by Madsen's method: a linear program
+minimises the largest of the linearised distances within a trust region.
 
 The coupling that attains the distance determines little about the pairs that do not decide. The
 warping path of squared distances keeps all pairs short and is used first. If it predicts no

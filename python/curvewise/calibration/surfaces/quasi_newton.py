@@ -2,10 +2,9 @@
 
 `nonsmooth_descent` is for functions with kinks whose gradient is known, in the unit cube. Its line
 search requires only a sufficient decrease and a sufficient increase of the slope (weak Wolfe
-conditions), so it descends where line searches for smooth functions fail. (With scipy's L-BFGS-B,
-searches take a third more runs.) A search that cannot leave its start may stand on a kink. Its next
-direction is then the shortest vector of the convex hull of the gradients on both sides, along the
-kink. Cost: 20 to 100 evaluations for up to ten coordinates.
+conditions), so it descends where line searches for smooth functions fail. Where it cannot leave its
+start, a kink, its next direction is the shortest vector of the convex hull of the gradients on both
+sides. Cost: 20 to 100 evaluations for up to ten coordinates.
 
 `quasi_newton` uses forward differences and backtracking, from an inverse Hessian of the right
 magnitude. Cost: about k + 2 evaluations for each step in k coordinates.
