@@ -29,6 +29,14 @@
 /// reference_rate)) (Johnson & Cook, 7th International Symposium on Ballistics, 1983). Exact for
 /// steps of any length.
 ///
+/// OhnoWang: back stresses X_k with a recall that acts near their limits r_k, and a yield stress as
+/// that of ChabocheVoce,
+///
+///     dX_k = zeta_k (r_k de_p - (|X_k| / r_k)^m_k X_k <dp sign(X_k de_p)>)
+///
+/// (Ohno & Wang, Int. J. Plasticity 9, 1993, version II; factors of 2/3 and 3/2 absorbed into the
+/// constants). Ratchets less than ChabocheVoce. Exact for steps of any length.
+///
 /// Young's modulus of the first two is constant or decays with the plastic strain (Yoshida, Uemori
 /// & Fujiwara, Int. J. Plasticity 18, 2002): ds = E(p) de_e with E(p) = E - (E - Ea)(1 - exp(-xi
 /// p)).
@@ -118,6 +126,12 @@ struct UpdatedVoceChaboche {
     int backstresses = 2;  ///< 0 to 99
 };
 
+/// Parameters, in order: E, yield, Q, b, then zeta1, r1, m1, zeta2, r2, m2, ...
+struct OhnoWang {
+    static constexpr const char* material = "ohno-wang";
+    int backstresses = 2;  ///< 0 to 99
+};
+
 /// Calls visit(name, value) for each option.
 template <class Visit>
 void visit_options(ChabocheVoce& material, Visit&& visit) {
@@ -132,6 +146,10 @@ void visit_options(YoshidaUemori& material, Visit&& visit) {
 }
 
 template <class Visit>
+void visit_options(OhnoWang& material, Visit&& visit) {
+    visit("backstresses", material.backstresses);
+}
+template <class Visit>
 void visit_options(UpdatedVoceChaboche& material, Visit&& visit) {
     visit("backstresses", material.backstresses);
 }
@@ -145,7 +163,8 @@ void visit_options(Swift& /*material*/, Visit&& /*visit*/) {}
 
 /// The list of materials: one of them, chosen by the type of its options. C, Fortran and Python
 /// have every material that is added here.
-using Material = std::variant<ChabocheVoce, YoshidaUemori, Swift, JohnsonCook, UpdatedVoceChaboche>;
+using Material =
+    std::variant<ChabocheVoce, YoshidaUemori, Swift, JohnsonCook, UpdatedVoceChaboche, OhnoWang>;
 
 /// Calls visit(material), with the default options of every material in the order of the list.
 template <std::size_t place = 0, class Visit>

@@ -12,6 +12,7 @@ from .chaboche_voce import ChabocheVoce
 from .driven_model import DrivenModel
 from .johnson_cook import JohnsonCook
 from .material import Material
+from .ohno_wang import OhnoWang
 from .point import Parameter
 from .swift import Swift
 from .updated_voce_chaboche import UpdatedVoceChaboche
@@ -23,6 +24,7 @@ __all__ = [
     "DrivenModel",
     "JohnsonCook",
     "Material",
+    "OhnoWang",
     "Parameter",
     "Swift",
     "UpdatedVoceChaboche",
@@ -30,6 +32,6 @@ __all__ = [
 ]
 __dir__ = names_alone(__all__)
 
-_KINDS = (ChabocheVoce, YoshidaUemori, Swift, JohnsonCook, UpdatedVoceChaboche)
+_KINDS = (ChabocheVoce, YoshidaUemori, Swift, JohnsonCook, UpdatedVoceChaboche, OhnoWang)
 MATERIALS: dict[str, type[Material]] = {kind.name: kind for kind in _KINDS}
 """The materials by the names that commands and studies call them by."""

@@ -7,7 +7,8 @@ stress with a hundred steps between two points of a loop. O(n steps), 0.1 ms eac
 
 Chaboche and Voce: J. L. Chaboche, Int. J. Plasticity 2 (1986) 149-188. Yoshida and Uemori:
 Int. J. Plasticity 18 (2002) 661-686, uniaxial, with the constants of `*MAT_125` of LS-DYNA. A
-modulus that decays: Yoshida, Uemori & Fujiwara, ibid. 633-659.
+modulus that decays: Yoshida, Uemori & Fujiwara, ibid. 633-659. Ohno and Wang: Int. J. Plasticity 9
+(1993) 375-390.
 """
 
 from __future__ import annotations
@@ -194,6 +195,44 @@ class _UpdatedVoceChaboche(_ChabocheVoce):
     isotropic = ((("Q", 1.0), "b"), (("D", -1.0), "a"))
 
 
+class _OhnoWang(_Point):
+    """The state is p, R, X1, X2 and so on."""
+
+    def __init__(self, constants: Mapping[str, float]) -> None:
+        super().__init__(constants)
+        count = sum(name.startswith("zeta") for name in constants)
+        self.zeta, self.r, self.m = (
+            np.array([constants[f"{name}{k + 1}"] for k in range(count)])
+            for name in ("zeta", "r", "m")
+        )
+        self.state = np.zeros(2 + count)
+
+    @property
+    def centre(self) -> float:
+        return float(self.state[2:].sum())
+
+    @property
+    def radius(self) -> float:
+        return float(self.constants["yield"] + self.state[1])
+
+    def flow(self, n: float, left: float) -> float:
+        c = self.constants
+
+        def rates(state: Array) -> Array:
+            R, X = float(state[1]), state[2:]
+            recall = np.where(n * X > 0.0, (np.abs(X) / self.r) ** self.m, 0.0)
+            back = self.zeta * (n * self.r - recall * X)
+            by_p = np.array([1.0, c["b"] * (c["Q"] - R), *back])
+            by_strain: Array = by_p / (1.0 + (by_p[1] + n * float(back.sum())) / c["E"])
+            return by_strain
+
+        # Short steps where a back stress comes to its limit.
+        steepest = float((self.zeta * (1.0 + self.m)).max(initial=1.0))
+        h = min(left, 0.1 / steepest)
+        self.state = _runge_kutta(self.state, h, rates)
+        return h
+
+
 class _YoshidaUemori(_Point):
     """The state is p, R, theta, beta, and centre and size of the stagnation surface.
 
@@ -326,4 +365,5 @@ _LAWS: dict[str, Callable[[Mapping[str, float]], _Point]] = {
     "swift": _Swift,
     "johnson-cook": _JohnsonCook,
     "updated-voce-chaboche": _UpdatedVoceChaboche,
+    "ohno-wang": _OhnoWang,
 }

@@ -6,6 +6,7 @@ from curvewise.materials import (
     ChabocheVoce,
     JohnsonCook,
     Material,
+    OhnoWang,
     Swift,
     UpdatedVoceChaboche,
     YoshidaUemori,
@@ -29,5 +30,9 @@ METALS: list[tuple[Material, dict[str, float]]] = [
     ),
     (UpdatedVoceChaboche(), _STEEL | _BACK | {"Q": 100.0, "D": 60.0, "a": 150.0}),
     (JohnsonCook(), {"E": 200e3, "A": 300.0, "B": 600.0, "n": 0.4, "C": 0.02}),
+    (
+        OhnoWang(),
+        _STEEL | {"zeta1": 400.0, "r1": 100.0, "m1": 3.5, "zeta2": 60.0, "r2": 70.0, "m2": 0.6},
+    ),
     (Swift(), {"E": 200e3, "K": 720.0, "e0": 0.004, "n": 0.21}),
 ]
