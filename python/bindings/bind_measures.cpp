@@ -351,6 +351,7 @@ void bind_measures(py::module_& module) {
     module.def("frechet_continuous_bounds",
                found<FrechetContinuousOptions, frechet_continuous_bounds>);
     module.def("frechet_continuous_path", found<FrechetContinuousOptions, frechet_continuous_path>);
+    module.def("frechet_continuous_part", found<FrechetContinuousOptions, frechet_continuous_part>);
     module.def("hausdorff_continuous_points",
                found<HausdorffContinuousOptions, hausdorff_continuous_points>);
     module.def("frechet_within", [](const CurveArray& P, const CurveArray& Q, double distance,

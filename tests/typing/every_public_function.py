@@ -66,6 +66,7 @@ table = curvewise.dtw_table(P, Q, metric="minkowski", p=np.inf)
 number = curvewise.frechet_continuous(P, Q, workers=2)
 bounds = curvewise.frechet_continuous(P, Q, bounds=True)
 matching: curvewise.Matching = curvewise.frechet_continuous_path(P, Q)
+matching = curvewise.frechet_continuous_part(P, Q)
 parameters: FloatArray = matching.parameters
 number = matching.distance
 is_near: bool = curvewise.frechet_within(P, Q, np.float32(0.5), continuous=False)

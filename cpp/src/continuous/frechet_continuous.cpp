@@ -73,9 +73,13 @@ class FrechetContinuousMeasure : public pairwise::Distance {
     template <class Use>
     static auto with_search(const PreparedP& P, const PreparedQ& Q, const Call& call, Use use) {
         const bool swap = P.boxed.size() < Q.boxed.size();
-        const PreparedP& first = swap ? Q : P;
-        const PreparedP& second = swap ? P : Q;
-        const RangeScale range = plain_scale(std::max(P.checked.largest, Q.checked.largest));
+        return with_ordered_search(swap ? Q : P, swap ? P : Q, call, use);
+    }
+    template <class Use>
+    static auto with_ordered_search(const PreparedP& first, const PreparedQ& second,
+                                    const Call& call, Use use) {
+        const RangeScale range =
+            plain_scale(std::max(first.checked.largest, second.checked.largest));
         if (range.is_identity()) {
             return with_search_of(first, second, first.boxed, second.boxed, range, call, use);
         }
@@ -176,6 +180,14 @@ auto with_search(const CurveView& P, const CurveView& Q, const FrechetContinuous
                                });
 }
 
+// A single point was searched as an edge of no length.
+void cut(Matching& found, const CurveView& P, const CurveView& Q) noexcept {
+    for (std::array<double, 2>& pair : found.parameters) {
+        pair[0] = std::min(pair[0], static_cast<double>(P.size() - 1));
+        pair[1] = std::min(pair[1], static_cast<double>(Q.size() - 1));
+    }
+}
+
 // Whether curves in the usual range, the longer one first, are within a distance. The ends and a
 // walk over vertices come first, since they need no boxes.
 template <int Dim>
@@ -215,17 +227,28 @@ Interval frechet_continuous_bounds(const CurveView& P, const CurveView& Q,
 Matching frechet_continuous_path(const CurveView& P, const CurveView& Q,
                                  const FrechetContinuousOptions& options, Control* control) {
     const bool swapped = P.size() < Q.size();  // with_search() puts the longer curve first
-    const std::array<double, 2> ends{static_cast<double>(P.size() - 1),
-                                     static_cast<double>(Q.size() - 1)};
     Matching found = with_search(P, Q, options, control, [](auto& search) {
         auto [distance, parameters] = search.matching(search.value(infinity));
         return Matching{distance, std::move(parameters)};
     });
-    for (std::array<double, 2>& pair : found.parameters) {
-        if (swapped) std::swap(pair[0], pair[1]);
-        // A single point was searched as an edge of no length.
-        for (std::size_t side = 0; side < 2; ++side) pair[side] = std::min(pair[side], ends[side]);
+    if (swapped) {
+        for (std::array<double, 2>& pair : found.parameters) std::swap(pair[0], pair[1]);
     }
+    cut(found, P, Q);
+    return found;
+}
+
+Matching frechet_continuous_part(const CurveView& P, const CurveView& Q,
+                                 const FrechetContinuousOptions& options, Control* control) {
+    Matching found = pairwise::with_pair(
+        FrechetContinuousMeasure(options), P, Q, control,
+        [](const auto& p, const auto& q, const auto& call) {
+            return FrechetContinuousMeasure::with_ordered_search(p, q, call, [](auto& search) {
+                auto [distance, parameters] = search.part();
+                return Matching{distance, std::move(parameters)};
+            });
+        });
+    cut(found, P, Q);
     return found;
 }
 

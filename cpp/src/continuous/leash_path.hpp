@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -62,6 +63,15 @@ class LeashMeasure {
         return radius_.given();
     }
 
+    // The same where the first and the last row are not at vertices of both curves.
+    double longest_with_ends(LeashPath& matched) {
+        double found = longest(matched);
+        for (const auto& row : {matched.front(), matched.back()}) {
+            if (!holds(row)) found = std::max(found, leash(row));
+        }
+        return found;
+    }
+
    private:
     // The edge that a row is on, the place on it, and the vertex of the other curve.
     template <class Use>
@@ -100,32 +110,90 @@ class LeashPathTrace {
         : diagram_(diagram), radius_(radius), poller_(poller) {}
 
     LeashPath parameters() {
+        Runs start;
+        diagram_.start(radius_, start);
+        const Blocks blocks = blocks_from(std::move(start));
         const std::ptrdiff_t last = diagram_.rows() - 1;
-        const auto block =
-            static_cast<std::ptrdiff_t>(std::ceil(std::sqrt(static_cast<double>(last))));
-        runtime::ScratchVector<Runs> marks(1), rows;
-        diagram_.start(radius_, marks[0]);
-        for (std::ptrdiff_t first = 0; first + block < last; first += block) {
-            walk(first, first + block, marks.back(), rows);
-            marks.push_back(std::move(rows.back()));
-        }
-        i_ = last;
         j_ = diagram_.cells() - 1;
         note(static_cast<double>(last), static_cast<double>(diagram_.cells()));
-        while (!marks.empty()) {
-            const auto first = static_cast<std::ptrdiff_t>(marks.size() - 1) * block;
-            walk(first, i_, marks.back(), rows);
-            marks.pop_back();
+        trace(blocks);
+        while (y_ > 0.0) note(0.0, std::ceil(y_) - 1.0);
+        return reversed();
+    }
+
+    // Of a path that may begin and end at any point of the second curve.
+    LeashPath part() {
+        Runs start;
+        diagram_.start_anywhere(radius_, start);
+        const Blocks blocks = blocks_from(std::move(start));
+        const std::ptrdiff_t last = diagram_.rows() - 1;
+        ScratchRows rows;
+        walk(blocks.first, last, blocks.marks.back(), rows);
+        note(static_cast<double>(last), nearest_end(last, rows.back()));
+        trace(blocks);
+        return reversed();
+    }
+
+   private:
+    using ScratchRows = runtime::ScratchVector<Runs>;
+
+    // The reachable runs of every row whose number is a multiple of `size`; the last one is
+    // `first`.
+    struct Blocks {
+        std::ptrdiff_t size, first;
+        ScratchRows marks;
+    };
+
+    Blocks blocks_from(Runs start) const {
+        const std::ptrdiff_t last = diagram_.rows() - 1;
+        Blocks blocks{
+            static_cast<std::ptrdiff_t>(std::ceil(std::sqrt(static_cast<double>(last)))), 0, {}};
+        blocks.marks.push_back(std::move(start));
+        ScratchRows rows;
+        for (; blocks.first + blocks.size < last; blocks.first += blocks.size) {
+            walk(blocks.first, blocks.first + blocks.size, blocks.marks.back(), rows);
+            blocks.marks.push_back(std::move(rows.back()));
+        }
+        return blocks;
+    }
+    // From the last row, where the path is on edge j_, to the first one.
+    void trace(const Blocks& blocks) {
+        ScratchRows rows;
+        i_ = diagram_.rows() - 1;
+        for (std::size_t k = blocks.marks.size(); k-- > 0;) {
+            const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(k) * blocks.size;
+            walk(first, i_, blocks.marks[k], rows);
             while (i_ > first) trace_row(rows[static_cast<std::size_t>(i_ - 1 - first)]);
         }
-        while (y_ > 0.0) note(0.0, std::ceil(y_) - 1.0);
+    }
+    LeashPath reversed() {
         std::reverse(found_.begin(), found_.end());
         return std::move(found_);
     }
 
-   private:
+    // The reachable place of a row that is nearest to its vertex. Puts its edge into j_.
+    double nearest_end(std::ptrdiff_t i, const Runs& runs) {
+        const auto& edges = diagram_.second_edges();
+        double place = 0.0, least = std::numeric_limits<double>::infinity();
+        for (const Run& run : runs) {
+            for (std::ptrdiff_t j = run.first; j <= run.last; ++j) {
+                FreePart part = diagram_.part_of_row(i, j, radius_);
+                if (j == run.first) part.low = run.low;
+                const auto [low, high] = edges.ends(j, part);
+                const double t = chosen(part, low, high, edges.nearest(j, i), 1.0);
+                const double square = edges.square_distance_at(j, t, i);
+                if (square >= least) continue;
+                least = square;
+                place = static_cast<double>(j) + t;
+                j_ = j;
+            }
+            poller_.spend(run.last - run.first);
+        }
+        return place;
+    }
+
     void walk(std::ptrdiff_t first, std::ptrdiff_t last, const Runs& start,
-              runtime::ScratchVector<Runs>& rows) const {
+              ScratchRows& rows) const {
         rows.resize(static_cast<std::size_t>(last - first + 1));
         rows[0] = start;
         for (std::ptrdiff_t i = first; i < last; ++i) {

@@ -111,6 +111,19 @@ class LeashSearch {
         return {longest, std::move(matched)};
     }
 
+    // The matching of the first curve and the section of the second that is nearest to it.
+    std::pair<double, LeashPath> part() {
+        const auto holds = [&](double x) { return has_part_within(radius_of(x)); };
+        // No vertex of the first curve is farther from the second one.
+        const double square = NearestEdges<Dim>(q_, poller_).furthest(p_, {0.0, 0}).square;
+        const double distance = least_from(range_.restore(std::sqrt(square), 1), holds);
+        const Radius radius = radius_of(distance);
+        LeashPath matched = LeashPathTrace<Dim>(diagram_, radius, poller_).part();
+        const double longest =
+            LeashMeasure<Dim>(diagram_, radius, range_, poller_).longest_with_ends(matched);
+        return {longest, std::move(matched)};
+    }
+
     // The real number rounded up; inf beyond the range of a double, and where it is above
     // `cutoff`.
     double value(double cutoff) {
@@ -242,11 +255,25 @@ class LeashSearch {
     }
 
     double least_of_witnesses() const {
-        const auto holds = [&](double x) { return !is_too_short(radius_of(x)); };
+        return least_from(guess_, [&](double x) { return !is_too_short(radius_of(x)); });
+    }
+    // The least double that holds, which is hardly below a guess.
+    template <class Holds>
+    static double least_from(double guess, Holds holds) {
         if (holds(0.0)) return 0.0;
-        const double below = guess_ * (1.0 - 0x1p-50);
+        const double below = guess * (1.0 - 0x1p-50);
         const double infinity = std::numeric_limits<double>::infinity();
         return least_double(holds(below) ? 0.0 : below, infinity, 2, 1, holds);
+    }
+
+    // Whether a path leads from any free point of the first row to the last row.
+    bool has_part_within(const Radius& radius) {
+        diagram_.start_anywhere(radius, runs_);
+        for (std::ptrdiff_t i = 0; i < last_ && !runs_.empty(); ++i) {
+            poller_.spend(8 + 2 * diagram_.advance(i, runs_, radius, next_));
+            std::swap(runs_, next_);
+        }
+        return !runs_.empty();
     }
 
     // Advances runs_, the reachable runs of row `from`, to row `to`, or until the steps are `most`.

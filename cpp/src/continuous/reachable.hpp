@@ -71,6 +71,12 @@ class Diagram {
         runs[0].last = std::min(runs[0].last, cells() - 1);
     }
 
+    // All that is free in row 0, for paths that begin at any point of the second curve.
+    void start_anywhere(const Radius& radius, Runs& runs) const {
+        runs.clear();
+        enter_from_left(-1, 0, cells() - 1, radius, runs);
+    }
+
     // Computes the reachable part of row i + 1 from that of row i. Returns the number of cells
     // between the first and the last tested.
     std::ptrdiff_t advance(std::ptrdiff_t i, const Runs& from, const Radius& radius,

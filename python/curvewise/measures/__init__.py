@@ -20,7 +20,12 @@ from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_info, dtw_path, dtw_table
 from .edit_distances import *  # noqa: F403  # the names that it lists
 from .frechet import frechet, frechet_info, frechet_path, frechet_table
-from .frechet_continuous import frechet_continuous, frechet_continuous_path, frechet_within
+from .frechet_continuous import (
+    frechet_continuous,
+    frechet_continuous_part,
+    frechet_continuous_path,
+    frechet_within,
+)
 from .gradient import value_and_gradient, values_and_gradients
 from .hausdorff import hausdorff
 from .hausdorff_continuous import hausdorff_continuous, hausdorff_continuous_points
@@ -45,6 +50,7 @@ __all__ = [
     "dtw_table",
     "frechet",
     "frechet_continuous",
+    "frechet_continuous_part",
     "frechet_continuous_path",
     "frechet_info",
     "frechet_path",

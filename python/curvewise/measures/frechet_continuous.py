@@ -11,6 +11,7 @@ from typing import Literal, SupportsFloat, SupportsIndex, overload
 
 from .._core import frechet_continuous as compiled_frechet_continuous
 from .._core import frechet_continuous_bounds as compiled_frechet_continuous_bounds
+from .._core import frechet_continuous_part as compiled_frechet_continuous_part
 from .._core import frechet_continuous_path as compiled_frechet_continuous_path
 from .._core import frechet_within as compiled_frechet_within
 from .._options import real_number
@@ -18,7 +19,12 @@ from ..curves.inputs import CurveLike, as_curves
 from ..curves.named_curve import copied
 from .results import Matching
 
-__all__ = ["frechet_continuous", "frechet_continuous_path", "frechet_within"]
+__all__ = [
+    "frechet_continuous",
+    "frechet_continuous_part",
+    "frechet_continuous_path",
+    "frechet_within",
+]
 
 
 @overload
@@ -133,6 +139,51 @@ def frechet_continuous_path(P: CurveLike, Q: CurveLike, *, workers: SupportsInde
     """
     p, q = as_curves(P, Q)
     found = compiled_frechet_continuous_path(p, q, {"workers": workers})
+    return Matching(*found, (copied(P, p), copied(Q, q)))
+
+
+def frechet_continuous_part(P: CurveLike, Q: CurveLike, *, workers: SupportsIndex = 1) -> Matching:
+    """Find the section of Q nearest to P by the continuous Fréchet distance.
+
+    The section begins and ends at any points of Q, also between vertices. For sections from vertex
+    to vertex by the discrete distance, see :func:`subsequence`.
+
+    Parameters
+    ----------
+    P, Q, workers
+        As for :func:`frechet_continuous`.
+
+    Returns
+    -------
+    Matching
+        ``distance`` and ``parameters`` as those of :func:`frechet_continuous_path`, except that the
+        parameters on Q begin and end with the section: ``parameters[0, 1]`` and
+        ``parameters[-1, 1]``. ``distance`` is the least of all sections, or above it by the few
+        units in the last place that the rounding of the parameters requires.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`frechet_continuous`.
+
+    Notes
+    -----
+    Paths through the free-space diagram begin anywhere in its first row, and end anywhere in its
+    last one (Alt & Godau, 1995). Exact: decisions that rounded arithmetic cannot make use integers.
+    Of several sections, one whose end is nearest to the end of P. Not symmetric. Time about 60
+    walks through the diagram, O(n m) each at worst; memory O(n + m) for the walks, and sqrt(n)
+    times the separate parts of a row of the diagram.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> road = [(0, 0), (10, 0), (10, 10)]
+    >>> found = curvewise.frechet_continuous_part([(2.5, 0), (10, 0), (10, 5)], road)
+    >>> found.distance, found.parameters[[0, -1], 1].tolist()
+    (0.0, [0.25, 1.5])
+    """
+    p, q = as_curves(P, Q)
+    found = compiled_frechet_continuous_part(p, q, {"workers": workers})
     return Matching(*found, (copied(P, p), copied(Q, q)))
 
 

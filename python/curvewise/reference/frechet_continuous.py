@@ -28,7 +28,12 @@ from ..curves.inputs import Array, CurveLike, as_curves
 from ..measures.results import Matching
 from .checks import check_pair
 
-__all__ = ["frechet_continuous", "frechet_continuous_path", "frechet_within"]
+__all__ = [
+    "frechet_continuous",
+    "frechet_continuous_part",
+    "frechet_continuous_path",
+    "frechet_within",
+]
 
 _Point: TypeAlias = list[int]
 
@@ -65,6 +70,25 @@ def frechet_continuous_path(P: CurveLike, Q: CurveLike) -> Matching:
     P, Q = check_pair(*as_curves(P, Q), "frechet_continuous")
     value = _value(P, Q)
     parameters = np.array(_trace(_Diagram(*_with_edges(P, Q), value)))
+    parameters = np.minimum(parameters, (len(P) - 1, len(Q) - 1))
+    leashes = [_leash(_point(P, x), _point(Q, y)) for x, y in parameters.tolist()]
+    return Matching(max([value, *leashes]), parameters)
+
+
+def frechet_continuous_part(P: CurveLike, Q: CurveLike) -> Matching:
+    """Of the least distance, the section that ends first.
+
+    The walks are others than those of the compiled library. Time and memory as for
+    frechet_continuous.
+    """
+    P, Q = check_pair(*as_curves(P, Q), "frechet_continuous")
+    edges = _with_edges(P, Q)
+
+    def ends(radius: float) -> list[_Part]:
+        return _Diagram(*edges, radius, is_open=True).reached()[0][-1]
+
+    value = _least_double(lambda radius: math.isinf(radius) or any(ends(radius)))
+    parameters = np.array(_trace(_Diagram(*edges, value, is_open=True)))
     parameters = np.minimum(parameters, (len(P) - 1, len(Q) - 1))
     leashes = [_leash(_point(P, x), _point(Q, y)) for x, y in parameters.tolist()]
     return Matching(max([value, *leashes]), parameters)
@@ -113,13 +137,19 @@ _Part: TypeAlias = tuple[_Position, _Position] | None
 
 
 class _Diagram:
-    """The free-space diagram of two curves in whole numbers."""
+    """The free-space diagram of two curves in whole numbers.
 
-    def __init__(self, P: Array, Q: Array, radius: float, strictly: bool = False) -> None:
+    If it is open, paths begin and end anywhere in its first and its last row.
+    """
+
+    def __init__(
+        self, P: Array, Q: Array, radius: float, strictly: bool = False, is_open: bool = False
+    ) -> None:
         unit = max(_exponent(x) for x in (*P.flat, *Q.flat, radius))
         self.P, self.Q = ([[_whole(x, unit) for x in point] for point in C] for C in (P, Q))
         self.square = _whole(radius, unit) ** 2
         self.strictly = strictly
+        self.is_open = is_open
 
     def is_free(self, i: int, j: int) -> bool:
         """Return whether P[i] and Q[j] are at most r apart."""
@@ -153,7 +183,7 @@ class _Diagram:
         lower: list[list[_Part]] = [[None] * m for _ in range(n + 1)]
         left: list[list[_Part]] = [[None] * (m + 1) for _ in range(n)]
         for j in range(m):  # along the sides of the diagram as far as all is free
-            if self.is_free(0, j) and (j == 0 or lower[0][j - 1]):
+            if self.is_open or (self.is_free(0, j) and (j == 0 or lower[0][j - 1])):
                 lower[0][j] = self.free(q[j], q[j + 1], p[0])
         for i in range(n):
             if self.is_free(i, 0) and (i == 0 or left[i - 1][0]):
@@ -190,11 +220,14 @@ def _is_long_enough(P: Array, Q: Array, radius: float, *, strictly: bool = False
 
 
 def _trace(diagram: _Diagram) -> list[tuple[float, float]]:
-    """Return the parameters of a path from corner to corner."""
+    """Return the parameters of a path from corner to corner, or from row to row."""
     lower, left = diagram.reached()
     p, q = diagram.P, diagram.Q
     i, j = len(left) - 1, len(lower[0]) - 1  # the cell that the path leaves
     x, y = i + 1.0, j + 1.0
+    if diagram.is_open:
+        j, (end, _) = next((k, part) for k, part in enumerate(lower[-1]) if part)
+        y = j + end.fraction(q[j], q[j + 1])
     path = [(x, y)]
     while i >= 0 and j >= 0:
         below, beside = lower[i][j], left[i][j]
@@ -207,7 +240,8 @@ def _trace(diagram: _Diagram) -> list[tuple[float, float]]:
             x, y, j = min(x, max(x_from, i)), float(j), j - 1
         path.append((x, y))
     # Along a side of the diagram.
-    path += [(0.0, float(k)) for k in range(math.ceil(y) - 1, -1, -1) if x == 0]
+    if not diagram.is_open:
+        path += [(0.0, float(k)) for k in range(math.ceil(y) - 1, -1, -1) if x == 0]
     path += [(float(k), 0.0) for k in range(math.ceil(x) - 1, -1, -1) if x > 0]
     return path[::-1]
 

@@ -24,6 +24,7 @@ namespace {
 using curvewise::frechet;
 using curvewise::frechet_continuous;
 using curvewise::frechet_continuous_bounds;
+using curvewise::frechet_continuous_part;
 using curvewise::frechet_continuous_path;
 using curvewise::frechet_within;
 using curvewise::Interval;
@@ -390,10 +391,24 @@ void messages() {
                  "distance is nan; give a number >= 0");
 }
 
+// The section of a curve that is nearest to another one.
+void sections() {
+    const Curve road{{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}};
+    const Curve track{{4.0, 1.0}, {9.0, 1.0}, {9.0, 3.0}};
+    const Matching found = frechet_continuous_part(track, road);
+    CHECK_EQUAL(found.distance, std::sqrt(2.0));
+    CHECK_EQUAL(found.parameters.front()[1], 0.4);
+    CHECK_EQUAL(found.parameters.back()[1], 1.3);
+    CHECK_EQUAL(frechet_continuous_part(Curve{{7.5, 1.0}}, road).distance, 1.0);
+    CHECK_EQUAL(frechet_continuous_part(road, Curve{{10.0, 0.0}}).distance, 10.0);
+    CHECK_EQUAL(frechet_continuous_part(Curve{{4.0}, {2.0}}, Curve{{0.0}, {8.0}}).distance, 1.0);
+}
+
 }  // namespace
 
 int main() {
     return check::run({{"values by hand", values_by_hand},
+                       {"sections", sections},
                        {"random curves", random_curves},
                        {"longer curves", longer_curves},
                        {"curves that nearly coincide", curves_that_nearly_coincide},
