@@ -75,12 +75,16 @@ class PreparedCurve {
     PreparedCurve(const CurveArray& P, const py::object& name, const py::dict& options)
         : measure_(read_measure(name, options)), n_(P.shape(0)), prepared_(prepare(P)) {}
 
-    double value(const CurveArray& Q, double cutoff) const {
+    double value(const CurveArray& Q) const {
+        const CurveView q = view(Q);
+        return interruptible(work(q), py::none(),
+                             [&](Control* control) { return prepared_(q, control); });
+    }
+    double value_within(const CurveArray& Q, double cutoff) const {
         const CurveView q = view(Q);
         BatchOptions batch;
         batch.cutoff = cutoff;
-        return interruptible(work(1.0, static_cast<double>(q.size()), static_cast<double>(q.dim())),
-                             py::none(),
+        return interruptible(work(q), py::none(),
                              [&](Control* control) { return prepared_(q, batch, control); });
     }
 
@@ -103,6 +107,9 @@ class PreparedCurve {
                              [&](Control* control) { return Prepared(p, measure_, control); });
     }
 
+    double work(const CurveView& q) const {
+        return work(1.0, static_cast<double>(q.size()), static_cast<double>(q.dim()));
+    }
     double work(double count, double m, double dim) const {
         const double n = static_cast<double>(n_);
         return std::visit(
@@ -127,6 +134,7 @@ void bind_pairwise(py::module_& module) {
     py::class_<PreparedCurve>(module, "Prepared")
         .def(py::init<const CurveArray&, const py::object&, const py::dict&>())
         .def("value", &PreparedCurve::value)
+        .def("value_within", &PreparedCurve::value_within)
         .def("values", &PreparedCurve::values);
 }
 

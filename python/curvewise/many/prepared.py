@@ -130,11 +130,12 @@ class Prepared:
         ValueError, TypeError
             As for the measure, and for :func:`cdist`.
         """
-        limit = np.inf
-        if cutoff is not None:
+        if cutoff is None:
+            limit = np.inf
+            if isinstance(Q, np.ndarray) and Q.ndim < 3:  # the usual case, without names
+                return self._prepared.value(as_curve(Q, "Q"))
+        else:
             limit = checked_limit("cutoff", cutoff, self._measure, self._options)
-        if isinstance(Q, np.ndarray) and Q.ndim < 3:  # the usual case, without names
-            return self._prepared.value(as_curve(Q, "Q"), limit)
         check_reference_systems(self._options, Q=Q)
         Q, labels = unlabelled(Q, "Q")
         if labels is not None or self._is_list(Q):
@@ -143,7 +144,7 @@ class Prepared:
             curves = as_curve_list(Q, "Q", keep_float32=True, layout="channels_last")
             return labelled_column(self._prepared.values(curves, workers, limit), labels)
         check_column_names(self._columns, "P", column_names(Q), "Q")
-        return self._prepared.value(as_curve(Q, "Q"), limit)
+        return self._prepared.value_within(as_curve(Q, "Q"), limit)
 
     def _is_list(self, Q: Any) -> bool:
         if isinstance(Q, list | tuple):

@@ -129,8 +129,11 @@ def subsequence(
     0.0 2 4
     0.5 7 9
     """
-    _check_one(P)
-    P, Q = as_curves(P, Q)
+    try:
+        P, Q = as_curves(P, Q)
+    except ValueError:
+        _check_one(P)
+        raise
     ask_about_curves(P, Q)
     count = min(whole_number("k", k, 1, "give a whole number >= 1"), sys.maxsize)
     check_choice("measure", measure, get_args(WarpingName))
