@@ -42,7 +42,7 @@ class Shortcut {
         for (std::size_t side = 0; side < 2; ++side) {
             const std::ptrdiff_t vertex = side == 0 ? from : to;
             const double* const scaled = points_.point<Dim>(vertex);
-            std::copy(scaled, scaled + dim, scaled_ends_.begin() + side * curve_.dim());
+            std::copy(scaled, scaled + dim, scaled_ends_.data() + side * dim);
             for (std::size_t c = 0; c < dim; ++c) {
                 ends_[side * dim + c] = curve_(vertex, static_cast<std::ptrdiff_t>(c));
             }

@@ -1,5 +1,6 @@
 #include "interface/c_translate.hpp"
 
+#include <cstddef>
 #include <type_traits>
 #include <variant>
 
@@ -13,7 +14,7 @@ static_assert(static_cast<int>(Status::no_memory) == CURVEWISE_NO_MEMORY);
 static_assert(static_cast<int>(Status::failed) == CURVEWISE_FAILED);
 static_assert(static_cast<int>(Status::stopped) == CURVEWISE_STOPPED);
 
-template <int measure, class Options>
+template <std::size_t measure, class Options>
 constexpr bool is_measure = std::is_same_v<std::variant_alternative_t<measure, Measure>, Options>;
 static_assert(is_measure<CURVEWISE_AREA, AreaOptions>);
 static_assert(is_measure<CURVEWISE_PCM, PcmOptions>);
