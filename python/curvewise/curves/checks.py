@@ -21,7 +21,8 @@ def checked_curve(curve: CurveLike, least: int) -> Array:
     """Return a curve as a finite array (n, d) with at least `least` points."""
     array = in_columns(as_numbers(curve, "curve"))  # a column of time is resampled with the rest
     if array.shape[0] < least or array.shape[1] == 0:
-        raise ValueError(f"curve has shape {array.shape}; at least {least} points are needed")
+        points = "point is" if least == 1 else "points are"
+        raise ValueError(f"curve has shape {array.shape}; at least {least} {points} needed")
     check_finite(array, "curve")
     return array
 

@@ -134,7 +134,8 @@ def test_names_times_and_columns_remain() -> None:
     times = np.arange(5.0)
     track = NamedCurve(np.array([(0, 0), (1, 0), (2, 0), (2, 1), (2, 2)], dtype=float), ["x", "y"])
     kept, rows = simplify(track, 0.5, return_rows=True)
-    assert kept.column_names == ("x", "y")  # type: ignore[attr-defined]
+    assert isinstance(kept, NamedCurve)
+    assert kept.column_names == ("x", "y")
     assert times[rows].tolist() == [0, 2, 4]
     assert simplify([0.0, 1.0, 2.0], 0.0).shape == (2, 1)
 
@@ -143,7 +144,7 @@ def test_names_times_and_columns_remain() -> None:
     ("curve", "tolerance", "options", "message"),
     [
         ([(0, 0), (1, np.nan)], 1, {}, r"curve\[1, 1\] is nan; curves must be finite"),
-        (np.empty((0, 2)), 1, {}, r"curve has shape \(0, 2\); at least 1 points are needed"),
+        (np.empty((0, 2)), 1, {}, r"curve has shape \(0, 2\); at least 1 point is needed"),
         ([(0, 0), (1, 1)], -1, {}, "tolerance is -1; give a number >= 0"),
         ([(0, 0), (1, 1)], np.nan, {}, "tolerance is nan; give a number >= 0"),
         ([(0, 0), (1, 1)], "1 m", {}, "tolerance is '1 m'; give a number >= 0"),
