@@ -88,6 +88,16 @@ def test_windows(window, dim, step_pattern):
     check("dtw", clustered([70] * 34, dim, 2), options, (0.02,))
 
 
+@pytest.mark.parametrize("radius", [1e-9, 1.0, 6.4e6])
+@pytest.mark.parametrize(("measure", "window"), [("dtw", 2), ("dtw", None), ("frechet", None)])
+def test_spheres_of_any_radius(measure, window, radius):
+    """Bounds are those of chords: for a small sphere, squares of chords exceed its distances."""
+    options = {"metric": "haversine", "radius": radius}
+    if window:
+        options["window"] = window
+    check(measure, clustered([40] * 12, 2, 7), options)
+
+
 @pytest.mark.parametrize("measure", ["dtw", "frechet"])
 @pytest.mark.parametrize("power", [-900, -520, -401, 401, 900])
 def test_scales(measure, power):

@@ -75,6 +75,22 @@ def test_steps_of_any_length(m: float) -> None:
     assert OhnoWang(1).stress(turns[1:], constants) == pytest.approx(at_turns, rel=1e-12)
 
 
+@pytest.mark.parametrize("m", [0.3, 2.0, 8.0, 40.0])
+def test_slopes_at_every_part_of_the_course(m: float) -> None:
+    """Of back stresses below 0, from 0 to half of the limit, and beyond, to eight digits."""
+    constants = back(50.0, 100.0, m) | {"Q": 40.0, "b": 12.0}
+    strain = np.cumsum([0.004, 0.003, 0.006, 0.02, -0.01, -0.004, -0.003, 0.008, 0.006])
+    slopes = OhnoWang(1).stress_and_slopes(strain, constants)[1]
+    for name, slope in zip(OhnoWang(1).names, slopes.T, strict=True):
+        step = 1e-3 * constants[name]
+        # Of fourth order.
+        difference = sum(
+            weight * OhnoWang(1).stress(strain, constants | {name: constants[name] + k * step})
+            for k, weight in ((-2, 1 / 12), (-1, -2 / 3), (1, 2 / 3), (2, -1 / 12))
+        )
+        assert slope == pytest.approx(difference / step, rel=1e-8, abs=1e-8 * np.abs(slope).max())
+
+
 def drift(material: OhnoWang | ChabocheVoce, constants: dict[str, float]) -> float:
     """Return the strain that cycles between 380 and -340 MPa leave each time, at last."""
     stress = np.array([380.0, -340.0] * 60)
