@@ -58,6 +58,7 @@ def calls() -> dict[str, Callable[[], object]]:
         found[f"{name} 10"] = partial(getattr(curvewise, name), P, R)
     rows, single = P.tolist(), P.astype(np.float32)
     curves = [loop(10, 1.0 + 0.1 * i) for i in range(5)]
+    series = [loop(16, 1.0 + 0.1 * i)[:, 1].copy() for i in range(64)]
     options = {"metric": "cityblock", "step_pattern": "symmetric2", "window": 4}
     return found | {
         "frechet_within 10": partial(curvewise.frechet_within, P, Q, 0.1),
@@ -72,6 +73,7 @@ def calls() -> dict[str, Callable[[], object]]:
         "Prepared dtw 10": partial(curvewise.Prepared(P, "dtw"), Q),
         "cdist dtw 5 x 5 of 10": partial(curvewise.cdist, curves, curves),
         "pdist dtw 5 of 10": partial(curvewise.pdist, curves),
+        "pdist dtw 64 of 16": partial(curvewise.pdist, series, metric="sqeuclidean", window=1),
         "Index dtw 5 of 10": partial(curvewise.Index, curves, "dtw"),
         "kneighbors dtw 5 of 10": partial(curvewise.Index(curves, "dtw").kneighbors, [Q], 2),
         "dtw_mean 5 of 10": partial(curvewise.dtw_mean, curves),

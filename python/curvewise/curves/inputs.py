@@ -239,7 +239,8 @@ def _converted(
     if len(others) > 0:
         first, first_name = column_names(others[0]), "XA[0]"
     for i, curve in enumerate(given):
-        check_column_names(first, first_name, column_names(curve), f"{name}[{i}]")
+        if type(curve) is not np.ndarray:  # whose columns have no names
+            check_column_names(first, first_name, column_names(curve), f"{name}[{i}]")
     converted = [
         # Inputs that are returned unchanged are found without a call.
         curve

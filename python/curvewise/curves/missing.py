@@ -61,6 +61,8 @@ def skip_in_each(curves: Sequence[Array], names: Sequence[str], missing: Missing
 
 def skip_in_list(curves: list[Array], name: str, missing: Missing) -> list[Array]:
     """Return the curves of a list, whose messages name them ``XA[3]``, as `skip_in_each` does."""
+    if missing == "refuse":  # without a name for each curve
+        return curves
     return skip_in_each(curves, [f"{name}[{i}]" for i in range(len(curves))], missing)
 
 

@@ -210,19 +210,19 @@ def cdist(
     rows = skip_in_list(rows, "XA", missing)
     columns = None if columns is None else skip_in_list(columns, "XB", missing)
     shape = (len(rows), len(rows if columns is None else columns))
-    out = _checked_out(out, shape, "cdist")
+    values = _checked_out(out, shape, "cdist")
     rows, columns = _apart(rows, out), None if columns is None else _apart(columns, out)
     limit = checked_limit("cutoff", cutoff, measure, options)
     if _is_called_by_pairs(measure, options):
         function = _called_by_pairs(measure, options, limit, rows, columns)
         others = rows if columns is None else columns
         points = _points(rows) * len(others) + len(rows) * _points(others)
-        _fill(out, product(rows, others), points, function, limit, progress)
+        _fill(values, product(rows, others), points, function, limit, progress)
     else:
         name = _check_names(measure, options)
         with reporting(progress) as report:
-            compiled_cdist(rows, columns, name, options, out, workers, limit, report)
-    return labelled_matrix(out, row_labels, column_labels)
+            compiled_cdist(rows, columns, name, options, values, workers, limit, report)
+    return labelled_matrix(values, row_labels, column_labels)
 
 
 @overload
@@ -310,7 +310,7 @@ def pdist(
     X, labels = unlabelled(X, "X")
     curves = as_curve_list(X, "X", keep_float32=not callable(measure), layout=layout)
     curves = skip_in_list(curves, "X", missing)
-    out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
+    values = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
     curves = _apart(curves, out)
     limit = checked_limit("cutoff", cutoff, measure, options)
     if _is_called_by_pairs(measure, options):
@@ -319,13 +319,13 @@ def pdist(
             apart = ("metric", "closed") if callable(options.get("metric")) else ("closed",)
             _check_symmetric(measure, {o: v for o, v in options.items() if o not in apart})
         points = (len(curves) - 1) * _points(curves)
-        _fill(out, combinations(curves, 2), points, function, limit, progress)
+        _fill(values, combinations(curves, 2), points, function, limit, progress)
     else:
         name = _check_names(measure, options)
         _check_symmetric(name, options)
         with reporting(progress) as report:
-            compiled_pdist(curves, name, options, out, workers, limit, report)
-    return labelled_triangle(out, labels)
+            compiled_pdist(curves, name, options, values, workers, limit, report)
+    return labelled_triangle(values, labels)
 
 
 # What users look for among the named measures.
@@ -414,8 +414,10 @@ def _checked_out(out: Array | None, shape: tuple[int, ...], name: str) -> Array:
     return out
 
 
-def _apart(curves: list[Array], out: Array) -> list[Array]:
-    """Return the curves, copied where writing to `out` might change them."""
+def _apart(curves: list[Array], out: Array | None) -> list[Array]:
+    """Return the curves, copied where writing to the caller's `out` might change them."""
+    if out is None:
+        return curves
     return [copy_of(curve) if np.may_share_memory(curve, out) else curve for curve in curves]
 
 
