@@ -98,7 +98,7 @@ def draw_together(
 def draw_alone(
     run: Run, name: str, loops: Sequence[Array], measure: str, response: Sequence[Array]
 ) -> None:
-    """Draw figures 20 to 29: the five loops and the response of one optimum."""
+    """Draw figures 20 to 29: the five loops and the response of one optimum, not stored."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(13, 3.4), layout="constrained")
@@ -109,7 +109,7 @@ def draw_alone(
         panel.set_xlabel(LABELS["xlabel"])
     panels[0].set_ylabel(LABELS["ylabel"])
     legend_below(figure, panels[0])
-    run.picture(name, figure)
+    run.picture(name, figure, stored=False)
 
 
 def draw_test(panel: Axes, k: int, loop: Array) -> None:

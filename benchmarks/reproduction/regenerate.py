@@ -50,7 +50,7 @@ def main() -> None:
     parser.add_argument("--resume", action="store_true", help="keep what is stored and current")
     options = parser.parse_args()
     if not options.resume:
-        for file in [*HERE.glob("optima/*.json.xz"), *HERE.glob("*.png")]:
+        for file in [*HERE.glob("optima/*.json.xz"), *HERE.glob("*.webp")]:
             file.unlink()
     began = time.perf_counter()
     held = environment()

@@ -58,17 +58,23 @@ class Run:
         separator = "" if found or not head else "\n"
         file.write_text(f"{head}{separator}{begin}{text.strip()}\n{end}{tail}")
 
-    def picture(self, name: str, figure: Figure) -> None:
-        """Save a figure as a PNG of modest size: of 256 colours, enough for lines."""
+    def picture(self, name: str, figure: Figure, *, stored: bool = True) -> None:
+        """Save a figure as a small WebP: of 64 colours, enough for lines, without loss.
+
+        One that is not `stored` goes to build/paper instead of the folder of the scripts.
+        """
         from PIL import Image
 
-        file = self.output / f"{name}.png"
+        folder = self.output if stored or self.output != HERE else SCRATCH
+        folder.mkdir(parents=True, exist_ok=True)
+        file = folder / f"{name}.webp"
         pixels = io.BytesIO()
         figure.savefig(pixels, dpi=90, facecolor="white")
         image = Image.open(pixels).convert("RGB")
         # The default method gives rare colours away, those of lines that others cover.
-        few = image.quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
-        few.save(file, optimize=True)
+        method = Image.Quantize.MAXCOVERAGE
+        few = image.quantize(64, method, kmeans=1, dither=Image.Dither.NONE)
+        few.convert("RGB").save(file, lossless=True, quality=100, method=6)
         print(f"written: {file}", flush=True)
 
 

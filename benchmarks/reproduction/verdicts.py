@@ -57,7 +57,7 @@ def page(claims: Path, results: str) -> str:
     for section in sections:
         parts += [f"## {section['title']}", claim_table(section["claim"], tables)]
         pictures = [name for claim in section["claim"] for name in claim.get("pictures", [])]
-        parts += ["\n".join(f"![{name}]({name}.png)" for name in dict.fromkeys(pictures))]
+        parts += ["\n".join(f"![{name}]({name}.webp)" for name in dict.fromkeys(pictures))]
     return "\n\n".join(part.strip() for part in parts if part) + "\n"
 
 
@@ -80,7 +80,7 @@ def claim_table(claims: list[dict[str, Any]], tables: dict[str, list[list[str]]]
     for claim in claims:
         verdict = claim["verdict"]
         found = re.sub(r"\{([^}]+)\}", lambda match: cell(match[1], tables), claim["found"])
-        pictures = ", ".join(f"[{name}]({name}.png)" for name in claim.get("pictures", []))
+        pictures = ", ".join(f"[{name}]({name}.webp)" for name in claim.get("pictures", []))
         shown = f"*{verdict}*" if verdict == SHOWN else f"**{verdict}**"
         rows.append([claim["says"], shown, found, f"`{claim['by']}`", pictures])
     header = ["the paper", "verdict", "what was found", "by", "picture"]

@@ -4,7 +4,7 @@ For each workload of workloads.py, values are compared first, on the timed curve
 random pairs. Then all are timed in alternation in this process, on one thread; curvewise's other
 instruction-set levels take their samples in the same turn, in processes of their own. A peer too
 slow for an n is quoted at the largest n that it is fast enough for. Last, the n up to which exact
-curvewise is faster than approximate fastdtw. Prints tables; writes peers.json.xz and peers.png.
+curvewise is faster than approximate fastdtw. Prints tables; writes peers.json.xz and peers.webp.
 """
 
 from __future__ import annotations
@@ -123,7 +123,7 @@ def main() -> None:
     write_json(arguments.output / "peers.json.xz", content)
     drawn = [work for work in (DTW, FRECHET) if work.name in arguments.workloads]
     if drawn:
-        draw(drawn, results, machine, arguments.output / "peers.png")
+        draw(drawn, results, machine, arguments.output / "peers.webp")
 
 
 def load_modules() -> dict[str, Any]:

@@ -9,7 +9,7 @@ process of its own), files of tests as they are, and other packages at the large
 in a given time. Full sweeps of more than 20,000 points are extrapolated by n m, except for one.
 
 Each part is measured in one run, most of them in less than a minute, and put into pruning.json.xz
-beside the parts that are there; pruning.png is drawn from all that is there.
+beside the parts that are there; pruning.webp is drawn from all that is there.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ def main() -> None:
         content[part] = {"machine": timing.machine(PACKAGES), "took": took, "results": results}
         print_results(f"{part} ({took:.0f} s)", results)
         write_json(file, content)
-    draw(content, arguments.output / "pruning.png")
+    draw(content, arguments.output / "pruning.webp")
 
 
 def rounds(seconds: float) -> int:

@@ -3,7 +3,7 @@
 dtw, frechet and their paths on two curves of n points each, n from 10^2 to 10^5 (paths to 5·10^4).
 Each combination of level and threads has a fresh process, whose peak memory is reported beside
 that of a process which only imports curvewise; the processes of one n take their samples in turn.
-Writes scaling.json.xz and scaling.png.
+Writes scaling.json.xz and scaling.webp.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def main() -> None:
         print_measure(measure, results)
     content = {"machine": machine, "import_megabytes": baseline, "results": results}
     write_json(arguments.output / "scaling.json.xz", content)
-    draw(results, machine, arguments.output / "scaling.png")
+    draw(results, machine, arguments.output / "scaling.webp")
 
 
 def import_megabytes() -> float:

@@ -6,9 +6,9 @@ cent of what moving up alone gives. Ideally a thinned loop gives 0, or what its 
 really enclose ("true": each vertex matched with the one it is); and a loop that is moved up gives
 100, whatever else was done to it. Curves are scaled by the loop's box. Then the time of a call.
 
-Reads the golden data; writes area_sampling.json.xz and, of the loops, area_sampling.png. Loops take
-a few minutes, the times, which want a quiet machine, half a minute; a part is put beside the one
-that is there.
+Reads the golden data; writes area_sampling.json.xz and, of the loops, area_sampling.webp. Loops
+take a few minutes, the times, which want a quiet machine, half a minute; a part is put beside the
+one that is there.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def main() -> None:
         content[part] = {"machine": measured_on, "results": results}
     write_json(file, content)
     if "loops" in options.part:
-        draw(content["loops"]["results"], options.output / "area_sampling.png")
+        draw(content["loops"]["results"], options.output / "area_sampling.webp")
 
 
 def measure_loops() -> dict[str, dict[str, dict[str, tuple[float, float]]]]:

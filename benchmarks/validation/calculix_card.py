@@ -4,7 +4,7 @@ Chaboche-Voce with two back stresses is fitted to measured loops, by least squar
 with the point's own slopes. Each card is made along its loop, and one hexahedron of its overlay is
 driven along the same strain; then the first card along the other loops, for which it was not made.
 Numbers are the largest difference of the stresses in per cent of the height of the loop. Writes
-calculix_card.json and calculix_card.png.
+calculix_card.json and calculix_card.webp.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def main() -> None:
         row["card_of_the_first_percent"] = difference(curve[:, 1], point)
         print("{test:26}{card_of_the_first_percent:8.2f} with the first card".format(**row))
     (output / "calculix_card.json").write_text(json.dumps(rows, indent=1) + "\n")
-    save_picture(draw(panels, rows), output / "calculix_card.png", dpi=90)
+    save_picture(draw(panels, rows), output / "calculix_card.webp", dpi=90)
 
 
 def path_of(strain: Array) -> Array:

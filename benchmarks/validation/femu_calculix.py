@@ -8,7 +8,7 @@ the conditions of the paper, identify seven parameters each by successive respon
 
 First the element is held against an independent integration of the same law; at last an
 identification has to survive a solver that is killed and parameters with which it diverges. An
-interrupted run is taken up again where it was. Writes femu_calculix.json and femu_calculix.png.
+interrupted run is taken up again where it was. Writes femu_calculix.json and femu_calculix.webp.
 """
 
 from __future__ import annotations
@@ -102,9 +102,9 @@ def main() -> None:
     }
     (output / "femu_calculix.json").write_text(json.dumps(results, indent=1) + "\n")
     figure = draw(found, [file.stem for file in files])
-    save_picture(figure, output / "femu_calculix.png", dpi=90)
+    save_picture(figure, output / "femu_calculix.webp", dpi=90)
     print(table(results["measures"]))
-    print(f"written: {output / 'femu_calculix.json'}, {output / 'femu_calculix.png'}")
+    print(f"written: {output / 'femu_calculix.json'}, {output / 'femu_calculix.webp'}")
 
 
 def turning_points(strain: Array, threshold: float = 0.05) -> list[int]:

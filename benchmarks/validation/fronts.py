@@ -6,7 +6,7 @@ searches by both measures, and `front` looks at its runs.
     pip install ".[calibration,plot]"
     python benchmarks/validation/fronts.py
 
-Prints the fronts and draws front_<loop>.png. Ten seconds.
+Prints the fronts and draws front_<loop>.webp. Ten seconds.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def main() -> None:
         identify_each(model, test, BOUNDS, measures=measures, store=store, progress=False)
         found = front(store, test, measures)
         print(f"{name}\n\n{found}\n", flush=True)
-        save_picture(found.plot(), options.output / f"front_{name}.png", dpi=90)
+        save_picture(found.plot(), options.output / f"front_{name}.webp", dpi=90)
 
 
 if __name__ == "__main__":

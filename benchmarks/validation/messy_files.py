@@ -7,8 +7,9 @@ Each file is given to `curvewise fit FILE` and to `curvewise compare REFERENCE F
 "right", or a question or warning, whose message has to name the options that then give the right
 result. The answer is what the person knows who made the test: an area, a length, which columns are
 meant. Right parameters are within TOLERANCES of the truth. Two curves are alike if paired points
-are at most NEAR of the height apart on average. Writes the table and the transcript, with the first
-lines of both outputs, to results/messy_files.md. Two minutes on one core.
+are at most NEAR of the height apart on average. With --cases, writes the table to
+results/messy_files.md. Prints the table and the transcript, with the first lines of both outputs.
+Two minutes on one core.
 """
 
 from __future__ import annotations
@@ -169,10 +170,10 @@ def written(outcomes: Sequence[tuple[Messy, Outcome]]) -> str:
             "# Messy files",
             f"{right} of {len(outcomes)} right. Made by `messy_files.py`. The steel has {known}; "
             "tests made by the script lack C2 and gamma2. Each file is given to `fit` and to "
-            f"`compare`, whose questions and warnings are then answered. The first {SHOWN} lines "
-            "of the standard output follow the standard error.",
+            "`compare`, whose questions and warnings are then answered.",
             "\n".join([f"| {' | '.join(_HEADS)} |", "|---|---|---|---|---|", *rows]),
-            "## Transcript\n\nRuns without a question or a warning are left out.",
+            "## Transcript\n\nRuns without a question or a warning are left out. The first "
+            f"{SHOWN} lines of the standard output follow the standard error.",
             *(
                 "```text\n" + "\n".join(map(str, one.runs)) + "\n```"
                 for _, one in outcomes
@@ -196,8 +197,9 @@ def main() -> int:
         os.chdir(RESULTS)
     page = written(outcomes)
     if cases:
-        (RESULTS / "messy_files.md").write_text(page, encoding="utf-8")
-    print(page.partition("## Transcript")[0].strip())
+        table = page.partition("## Transcript")[0].rstrip() + "\n"
+        (RESULTS / "messy_files.md").write_text(table, encoding="utf-8")
+    print(page)
     return int(not all(one.verdict.startswith("right") for _, one in outcomes))
 
 

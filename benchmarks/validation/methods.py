@@ -15,7 +15,7 @@ was interrupted goes on where it was.
 
     python benchmarks/validation/methods.py --seeds 10
 
-Adds the searches that methods.json.xz does not have to it, and writes methods.md and methods.png.
+Adds the searches that methods.json.xz does not have to it, and writes methods.md and methods.webp.
 """
 
 from __future__ import annotations
@@ -162,7 +162,7 @@ def main() -> None:
     text = "\n\n".join([*(table(name, rows) for name, rows in results.items()), defaults(results)])
     print(text)
     (options.output / "methods.md").write_text(text + "\n")
-    save_picture(draw(results), options.output / "methods.png", dpi=90)
+    save_picture(draw(results), options.output / "methods.webp", dpi=90)
 
 
 def judged(name: str, found: dict) -> dict:

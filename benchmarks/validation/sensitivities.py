@@ -10,7 +10,7 @@ quarters of its bounds, and all others are searched for anew: what does that cos
     pip install ".[calibration,plot]"
     python benchmarks/validation/sensitivities.py
 
-Prints both, and draws sensitivities_<loop>.png. A few seconds.
+Prints both, and draws sensitivities_<loop>.webp. A few seconds.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def main() -> None:
                 rise = 100.0 * (value / found.value - 1.0)
                 print(f"{key} held at {held:g}: the sum of squares is {rise:.3g} % higher")
         print()
-        save_picture(effects.plot(), options.output / f"sensitivities_{name}.png", dpi=90)
+        save_picture(effects.plot(), options.output / f"sensitivities_{name}.webp", dpi=90)
 
 
 if __name__ == "__main__":
