@@ -29,7 +29,7 @@ module curvewise
     integer(c_int), parameter, public :: symmetric1 = 0, symmetric2 = 1
     integer(c_int), parameter, public :: spacing_distance = 0, spacing_x = 1, &
         spacing_arc_length = 2, spacing_matched = 3, spacing_function = 4        ! spacing
-    integer(c_int), parameter, public :: rearrange = 0, split = 1                ! crossing
+    integer(c_int), parameter, public :: rearrange = 0, split = 1, polygon = 2   ! crossing
     integer(c_int), parameter, public :: scale_mean = 0, scale_mean_abs = 1, scale_range = 2
     integer(c_ptrdiff_t), parameter, public :: no_window = -1
     integer(c_int), parameter, public :: preset_scaled = 0, preset_paper = 1, preset_raw = 2
@@ -48,6 +48,7 @@ module curvewise
         integer(c_int) :: spacing = spacing_distance
         integer(c_int) :: crossing = rearrange
         logical :: squared = .false.            ! sum the squared areas
+        logical :: closed = .false.             ! join the ends of both curves
     end type
 
     type, extends(measure_options), public :: pcm_options

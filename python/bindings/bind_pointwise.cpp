@@ -5,7 +5,6 @@
 #include "bind_topics.hpp"
 #include "curvewise/pointwise.hpp"
 #include "curvewise/simplify.hpp"
-#include "curvewise/symmetric_difference.hpp"
 #include "interruptible.hpp"
 #include "numpy_view.hpp"
 
@@ -40,7 +39,6 @@ void bind_pointwise(py::module_& module) {
     bind("sum_of_squares", sum_of_squares);
     bind("mse", mse);
     bind("mae", mae);
-    bind("symmetric_difference", symmetric_difference);
     module.def("simplify", kept_rows);
     module.def("normalize", [](const CurveArray& P, const CurveArray& C, const char* name) {
         py::array_t<double> out(std::vector<py::ssize_t>(C.shape(), C.shape() + C.ndim()));

@@ -97,7 +97,7 @@ StepPatternName: TypeAlias = Literal[
 Window: TypeAlias = SupportsIndex | float | None
 Relax: TypeAlias = Sequence[SupportsIndex] | None  # ends of P, then of Q
 Spacing: TypeAlias = Literal["distance", "x", "arc_length", "matched", "function"]
-Crossing: TypeAlias = Literal["rearrange", "split"]
+Crossing: TypeAlias = Literal["rearrange", "split", "polygon"]
 Offsets: TypeAlias = SupportsIndex | Literal["continuous"]
 LengthScale: TypeAlias = Literal["mean", "mean_abs", "range"]
 

@@ -71,7 +71,7 @@ enum curvewise_spacing {
     CURVEWISE_SPACING_FUNCTION
 };
 /** Values of curvewise_area_options.crossing. */
-enum curvewise_crossing { CURVEWISE_REARRANGE, CURVEWISE_SPLIT };
+enum curvewise_crossing { CURVEWISE_REARRANGE, CURVEWISE_SPLIT, CURVEWISE_POLYGON };
 /** Values of curvewise_curve_length_options.scale. */
 enum curvewise_length_scale { CURVEWISE_MEAN, CURVEWISE_MEAN_ABS, CURVEWISE_RANGE };
 
@@ -85,10 +85,11 @@ typedef struct curvewise_area_options {
     int spacing;                /**< curvewise_spacing */
     int crossing;               /**< curvewise_crossing */
     int squared;                /**< not 0: sum the squared areas */
+    int closed;                 /**< not 0: join the ends of both curves */
 } curvewise_area_options;
 /** The options for NULL. */
 #define CURVEWISE_AREA_DEFAULTS \
-    { sizeof(curvewise_area_options), NULL, CURVEWISE_SPACING_DISTANCE, CURVEWISE_REARRANGE, 0 }
+    { sizeof(curvewise_area_options), NULL, CURVEWISE_SPACING_DISTANCE, CURVEWISE_REARRANGE, 0, 0 }
 
 /** Options of curvewise_pcm(), as in pcm.hpp. */
 typedef struct curvewise_pcm_options {

@@ -22,5 +22,4 @@
 #include "curvewise/simplify.hpp"
 #include "curvewise/soft_dtw.hpp"
 #include "curvewise/subsequence.hpp"
-#include "curvewise/symmetric_difference.hpp"
 #include "curvewise/version.hpp"

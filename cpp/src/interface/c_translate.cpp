@@ -86,7 +86,7 @@ void refuse_size(std::size_t given, std::size_t known, const char* start) {
 
 AreaOptions translate(const curvewise_area_options& given) {
     return {choice<Spacing>("spacing", given.spacing), choice<Crossing>("crossing", given.crossing),
-            given.squared != 0};
+            given.squared != 0, given.closed != 0};
 }
 
 PcmOptions translate(const curvewise_pcm_options& given) {

@@ -23,6 +23,7 @@
 #include "curves/polyline.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
+#include "planar/quad.hpp"
 #include "runtime/poller.hpp"
 #include "runtime/scratch.hpp"
 
@@ -67,5 +68,22 @@ runtime::ScratchVector<double> matched_areas(const CurveView& P, const CurveView
 // out in `range`. Throws Stopped where the poller says so. `on_curves`, if given, is filled in.
 MatchedCurves match(const CurveView& P, const CurveView& Q, const curves::RangeScale& range,
                     Poller& poller, PlacesOnCurves* on_curves = nullptr);
+
+// Calls visit(curves, first, end, area) for each piece of the matched curves in order. Its
+// quadrilaterals are those from `first` to before `end`; `area` is the sum of their signed
+// areas.
+template <class Visit>
+void for_each_piece(const planar::MatchedCurves& curves, runtime::Poller& poller, Visit visit) {
+    std::size_t first = 0;
+    for (const std::size_t end : curves.ends) {
+        double area = 0.0;
+        for (std::size_t i = first; i < end; ++i) {
+            poller.poll_in_loop(i);
+            area += quad_at(curves, i).signed_area();
+        }
+        visit(curves, first, end, area);
+        first = end;
+    }
+}
 
 }  // namespace curvewise::planar

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "curves/polyline.hpp"
 #include "curvewise/area.hpp"
@@ -53,6 +54,12 @@ struct Quad {
         return (s <= 0.0 && t >= 0.0 && s != t) || (s >= 0.0 && t <= 0.0 && s != t);
     }
 };
+
+// The quadrilateral between the segments from vertex i of facing or matched curves.
+template <class Curves>
+Quad quad_at(const Curves& curves, std::size_t i) noexcept {
+    return {curves.A[i], curves.A[i + 1], curves.B[i + 1], curves.B[i]};
+}
 
 // How the area of a quadrilateral is taken.
 enum class Figure { simple, first_swapped, second_swapped, split_ab_cd, split_bc_da };

@@ -50,7 +50,8 @@ def add_compare(commands: Any) -> None:
     command.add_argument(
         "--crossing",
         choices=get_args(Crossing),
-        help="of area, without effect on spacing matched; in place of the preset's",
+        help="of area, without effect on spacing matched; in place of the preset's; polygon, the "
+        "exact area that one of two loops encloses alone, needs --closed",
     )
     command.add_argument(
         "--window",
@@ -61,7 +62,7 @@ def add_compare(commands: Any) -> None:
     command.add_argument(
         "--closed",
         action="store_true",
-        help="of frechet and dtw: compare loops, whose beginnings are free",
+        help="of area, frechet and dtw: compare loops, whose beginnings are free",
     )
     add_limits(command)
     command.add_argument("--json", action="store_true", help="print one JSON object")
@@ -98,10 +99,10 @@ def _options(
             options.setdefault(measure, {})[option] = value
     if not arguments.closed:
         return options
-    loops = get_args(WarpingName)
+    loops = ("area", *get_args(WarpingName))
     chosen = loops if measures is None else [name for name in measures if name in loops]
     if not chosen:
-        raise ValueError(f"--closed applies to {' and '.join(loops)}; add one to --measures")
+        raise ValueError(f"--closed applies to {', '.join(loops)}; add one to --measures")
     for measure in chosen:
         options.setdefault(measure, {})["closed"] = True
     return options

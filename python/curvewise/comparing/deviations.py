@@ -213,7 +213,8 @@ def _between_facing(measure: str, options: Mapping[str, Any], P: Array, Q: Array
     leashes = np.hypot(*(A - B).T)
     worst = int(leashes.argmax())
     is_of_x = options.get("spacing") == "function"  # over the x that both curves span
-    length, largest = travel(A[:, 0] if is_of_x else P[:, 0]), float(leashes[worst])
+    x = A[:, 0] if is_of_x else np.append(P[:, 0], P[0, 0] if options.get("closed") else [])
+    length, largest = travel(x), float(leashes[worst])
     mean = area(P, Q, **plain) / length if length > 0 else math.inf
     if not mean <= largest:
         mean = _mean_leash(leashes, np.diff(A, axis=0), np.diff(B, axis=0))

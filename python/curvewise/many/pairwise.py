@@ -273,9 +273,9 @@ def pdist(
     measure : str or callable
         The name of a symmetric measure: "area", "frechet", "dtw", "frechet_continuous",
         "hausdorff", "hausdorff_continuous", "erp", "edr", "lcss", "msm", "twe", "wdtw". They are
-        symmetric: dtw without open ends, area without spacing="arc_length" or "matched". A
-        callable, and a callable `metric`, is only called with the earlier curve as P; its symmetry
-        is not checked.
+        symmetric: dtw without open ends, area without spacing="arc_length" or "matched", and closed
+        only with crossing="polygon". A callable, and a callable `metric`, is only called with the
+        earlier curve as P; its symmetry is not checked.
     out : ndarray of float64, shape (k (k-1) / 2,), C-contiguous, optional
         Array for the result.
     workers, cutoff, progress, layout, missing, **options
@@ -341,7 +341,8 @@ _ELSEWHERE = {
 
 def _is_called_by_pairs(measure: Measure, options: Mapping[str, Any]) -> bool:
     """Return whether pairs are called from Python: callables and closed curves."""
-    return callable(measure) or callable(options.get("metric")) or bool(options.get("closed"))
+    is_walk = measure in get_args(WarpingName) and bool(options.get("closed"))
+    return callable(measure) or callable(options.get("metric")) or is_walk
 
 
 def _called_by_pairs(

@@ -35,7 +35,6 @@ from .pointwise import mae, mse, normalize, sum_of_squares
 from .shape import sbd
 from .soft_dtw import soft_dtw, soft_dtw_divergence
 from .step_pattern import StepPattern
-from .symmetric_difference import symmetric_difference
 
 __all__ = [
     *edit_distances.__all__,
@@ -71,7 +70,6 @@ __all__ = [
     "soft_dtw",
     "soft_dtw_divergence",
     "sum_of_squares",
-    "symmetric_difference",
     "value_and_gradient",
     "values_and_gradients",
 ]

@@ -26,6 +26,7 @@ def plot_area(
     *,
     spacing: Spacing = Default.spacing,
     crossing: Crossing = Default.crossing,
+    closed: bool = False,
     normalized: bool = False,
     names: Sequence[str] | None = None,
 ) -> CurveArtists:
@@ -38,6 +39,8 @@ def plot_area(
     ax : matplotlib.axes.Axes
         The axes to draw in.
     spacing, crossing : str
+        As in `area`.
+    closed : bool, default False
         As in `area`.
     normalized : bool
         Whether to measure ``normalize(P, Q)``, the curves scaled by P's box. They are drawn in
@@ -70,7 +73,7 @@ def plot_area(
     2
     """
     measured, drawn, labels = measured_and_drawn(P, Q, normalized, names)
-    quads = area_quads(*measured, spacing=spacing, crossing=crossing).quads
+    quads = area_quads(*measured, spacing=spacing, crossing=crossing, closed=closed).quads
     if normalized:
         low, extent = box(drawn[0])
         quads = low + extent * quads

@@ -9,10 +9,14 @@ Time O(n + (n - m) log m), memory O(n).
 With "matched", a warping path matches the curves instead (matching.py). Areas are signed then, and
 cancel within each section of the path. With "function" the strips between two functions of x are
 integrated instead (function_strips.py).
+
+Closed curves are compared from each point of Q on. With "polygon", the trapezoids of the symmetric
+difference are added up instead (symmetric_difference.py).
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple, get_args
 
 import numpy as np
@@ -23,9 +27,11 @@ from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import range_exponent, times_power_of_two
 from ..measures.results import AreaQuads
 from .checks import check_pair
+from .closed import without_repeated_end
 from .function_strips import function_strips, strip_areas, strip_squares
 from .matched_curves import Indices, matched_curves
 from .refinement import facing_curves
+from .symmetric_difference import symmetric_difference
 
 __all__ = ["area", "area_quads"]
 
@@ -37,9 +43,15 @@ def area(
     spacing: Spacing = "distance",
     crossing: Crossing = "rearrange",
     squared: bool = False,
+    closed: bool = False,
 ) -> float:
     """Add up the areas of :func:`area_quads`, where cost and source are."""
-    measured = _measure(P, Q, spacing, crossing)
+    if crossing == "polygon" and squared:
+        raise ValueError("crossing='polygon' has no squared; leave out squared=True")
+    return min(_total(m, spacing, squared) for m in _measure(P, Q, spacing, crossing, closed))
+
+
+def _total(measured: _Measured, spacing: Spacing, squared: bool) -> float:
     parts = measured.areas
     if spacing == "function" and squared:
         squares = np.asarray(np.sum(strip_squares(measured.quads)))
@@ -58,13 +70,17 @@ def area_quads(
     *,
     spacing: Spacing = "distance",
     crossing: Crossing = "rearrange",
+    closed: bool = False,
 ) -> AreaQuads:
     """Algorithm 1 of the paper; its Eq. 6 has a misprint: CD = (x4 - x3, y4 - y3).
 
     Time O(n + (n - m) log m) where n >= m, memory O(n); with "arc_length" O(n + m); with "matched"
-    see matching.py.
+    see matching.py. Closed curves take m times as long, the trapezoids of "polygon" the time of
+    symmetric_difference.py.
     """
-    quads, areas, exponent, _ = _measure(P, Q, spacing, crossing)
+    quads, areas, exponent, _ = min(
+        _measure(P, Q, spacing, crossing, closed), key=lambda m: _total(m, spacing, squared=False)
+    )
     return AreaQuads(times_power_of_two(quads, exponent), times_power_of_two(areas, 2 * exponent))
 
 
@@ -77,12 +93,37 @@ class _Measured(NamedTuple):
     pieces: Indices | None  # where each begins, of curves that were matched
 
 
-def _measure(P: CurveLike, Q: CurveLike, spacing: Spacing, crossing: Crossing) -> _Measured:
+def _measure(
+    P: CurveLike, Q: CurveLike, spacing: Spacing, crossing: Crossing, closed: bool
+) -> Iterator[_Measured]:
+    """Measure the curves, if closed from each point of Q on."""
     P, Q = as_curves(P, Q)
     check_choice("spacing", spacing, get_args(Spacing))
     check_choice("crossing", crossing, get_args(Crossing))
+    if crossing == "polygon" and not closed:
+        raise ValueError("crossing='polygon' is for closed curves; add closed=True")
+    if closed and spacing == "function":
+        raise ValueError(
+            "closed=True has no spacing='function'; choose from distance, x, arc_length, matched"
+        )
     P, Q = check_pair(P, Q, "area", least_points=2, planar=True)
     exponent = range_exponent(P, Q)
+    if crossing == "polygon":
+        yield _Measured(*symmetric_difference(P, Q, exponent), exponent, None)
+    elif closed:
+        P, Q = without_repeated_end(P), without_repeated_end(Q)
+        for start in range(len(Q)):
+            around = np.roll(Q, -start, axis=0)
+            yield _measure_open(
+                np.vstack([P, P[:1]]), np.vstack([around, around[:1]]), exponent, spacing, crossing
+            )
+    else:
+        yield _measure_open(P, Q, exponent, spacing, crossing)
+
+
+def _measure_open(
+    P: Array, Q: Array, exponent: int, spacing: Spacing, crossing: Crossing
+) -> _Measured:
     if spacing == "function":
         strips = function_strips(P, Q, exponent)
         return _Measured(strips, strip_areas(strips), exponent, None)

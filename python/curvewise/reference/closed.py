@@ -21,7 +21,7 @@ from ..measures.results import Alignment
 from .checks import check_pair
 from .ground import Ground
 
-__all__ = ["closed_dtw", "closed_frechet"]
+__all__ = ["closed_dtw", "closed_frechet", "without_repeated_end"]
 
 
 class _Walk(NamedTuple):
@@ -55,10 +55,11 @@ def _distances(
     A, B = as_curves(P, Q)
     distance = Ground.checked(A, B, metric, p, radius)
     A, B = check_pair(A, B, measure, on_sphere=distance.is_on_sphere)
-    return distance.distances(_ring(A), _ring(B))
+    return distance.distances(without_repeated_end(A), without_repeated_end(B))
 
 
-def _ring(curve: Array) -> Array:
+def without_repeated_end(curve: Array) -> Array:
+    """Return a closed curve without a last point that equals the first one."""
     closes = len(curve) > 1 and np.array_equal(curve[0], curve[-1])
     return curve[:-1] if closes else curve
 

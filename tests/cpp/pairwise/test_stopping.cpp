@@ -78,6 +78,10 @@ void single_calls() {
     const AreaOptions by_x{Spacing::x}, matched{Spacing::matched};
     const CurveLengthOptions by_range{LengthScale::range};
     hears("area, matched", [&](Control* control) { return area(P, Q, matched, control); });
+    for (const Crossing crossing : {Crossing::split, Crossing::polygon}) {
+        const AreaOptions closed{Spacing::distance, crossing, false, true};
+        hears("area, closed", [&](Control* control) { return area(few, Q, closed, control); });
+    }
     hears("area by arc length",
           [&](Control* control) { return area(P, Q, by_arc_length, control); });
     hears("area_quads", [&](Control* control) { return area_quads(P, few, {}, control); });

@@ -149,6 +149,10 @@ void single_calls() {
     fail_each("area, matched", [&] { return area(P, Q, {Spacing::matched}); });
     fail_each("area_quads, matched",
               [&] { return area_quads(P, Q, {Spacing::matched}).areas.back(); });
+    for (const Crossing crossing : {Crossing::split, Crossing::polygon}) {
+        const AreaOptions closed{Spacing::distance, crossing, false, true};
+        fail_each("area_quads, closed", [&] { return area_quads(P, Q, closed).areas.back(); });
+    }
     fail_each("area_quads", [&] { return area_quads(P, Q).areas.back(); });
     fail_each("pcm_match", [&] { return pcm_match(P, Q).value; });
     fail_each("dtw_path", [&] { return dtw_path(P, Q).distance; });

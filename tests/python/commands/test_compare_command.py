@@ -85,12 +85,14 @@ def test_loops_may_begin_elsewhere(run, compared, files):
     for preset in ("raw", "scaled"):
         values = compared(*files, "--closed", "--preset", preset)["values"]
         assert list(values) == MEASURES
-        assert values["frechet"] == values["dtw"] == 0.0
-        assert values["area"] == compared(*files, "--preset", preset)["values"]["area"] > 0.1
+        assert values["frechet"] == values["dtw"] == values["area"] == 0.0
+        assert compared(*files, "--preset", preset)["values"]["area"] > 0.1
     values = compared(*files, "--closed", "--measures", "pcm", "frechet")["values"]
     assert values["frechet"] == 0.0
-    of_area = ("--closed", "--measures", "area")
-    assert_failed(run("compare", *files, *of_area), "--closed applies to dtw and frechet; add one")
+    polygon = ("--closed", "--crossing", "polygon", "--preset", "raw")
+    assert compared(*files, *polygon, "--measures", "area")["values"]["area"] == 0.0
+    of_pcm = ("--closed", "--measures", "pcm")
+    assert_failed(run("compare", *files, *of_pcm), "--closed applies to area, dtw, frechet; add")
     given = ("--closed", "--window", "3")
     assert_failed(run("compare", *files, *given), "closed=True has no window; leave out window=3")
 

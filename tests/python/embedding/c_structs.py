@@ -48,7 +48,9 @@ Curve = structure(
     "Curve", ("data", c_void_p), *((x, c_ssize_t) for x in ("n", "dim", "row_stride", "col_stride"))
 )
 Error = structure("Error", ("message", c_char * 256))
-Area = options("Area", ("spacing", c_int), ("crossing", c_int), ("squared", c_int))
+Area = options(
+    "Area", ("spacing", c_int), ("crossing", c_int), ("squared", c_int), ("closed", c_int)
+)
 Pcm = options("Pcm", ("offsets", c_ssize_t), ("continuous", c_int))
 PRUNING = ("prune", c_int), ("cutoff", c_double)
 Frechet = options(

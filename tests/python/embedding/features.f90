@@ -59,6 +59,7 @@ contains
         call show('quads', quads(2, 3, 20))
         call show('areas', areas(20))
         call show('split', area(P, Q, area_options(crossing=split, squared=.true.)))
+        call show('polygon', area(P, Q, area_options(crossing=polygon, closed=.true.)))
         call show('continuous', frechet_continuous(P, Q))
         call show('cutoff', merge(1.0_real64, 0.0_real64, &
             frechet(P, Q, frechet_options(cutoff=1e-3_real64)) > huge(1.0_real64)))

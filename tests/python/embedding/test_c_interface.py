@@ -32,7 +32,7 @@ from c_structs import (
 from programs import MARKS, run
 
 import curvewise
-from curvewise._options import CoordinateMetric, Spacing
+from curvewise._options import CoordinateMetric, Crossing, Spacing
 from curvewise.materials import MATERIALS as MATERIALS_OF_PYTHON
 from curvewise.materials import ChabocheVoce, JohnsonCook, Swift, YoshidaUemori
 
@@ -138,6 +138,9 @@ def test_planar_options(call) -> None:
                 pair = [curve[np.argsort(curve[:, 0])] for curve in (P, Q)]
                 p, q = pair if spacing == "function" else (P, Q)
                 assert call("area", p, q, Area(*codes)) == curvewise.area(p, q, **given)
+    for code, crossing in enumerate(get_args(Crossing)):
+        expected = curvewise.area(P, Q, crossing=crossing, closed=True)
+        assert call("area", P, Q, Area(0, code, 0, 1)) == expected
     assert call("pcm", P, Q, Pcm(17, 0)) == curvewise.pcm(P, Q, offsets=17)
     assert call("pcm", P, Q, Pcm(0, 1)) == curvewise.pcm(P, Q, offsets="continuous")
     for code, scale in enumerate(("mean", "mean_abs", "range")):
@@ -149,7 +152,8 @@ def test_planar_options(call) -> None:
     ("name", "options", "message"),
     [
         ("area", Area(5, 0, 0), "unknown spacing 5; choose from 0 to 4"),
-        ("area", Area(0, -1, 0), "unknown crossing -1; choose from 0 to 1"),
+        ("area", Area(0, -1, 0), "unknown crossing -1; choose from 0 to 2"),
+        ("area", Area(0, 2, 0), "crossing='polygon' is for closed curves"),
         ("pcm", Pcm(0, 0), "offsets is 0; give a whole number >= 1, or 'continuous'"),
         ("frechet", Frechet(6, 2.0, 1), "unknown metric 6; choose from 0 to 5"),
         ("frechet", Frechet(4, 0.5, 1), "minkowski needs 1 <= p <= inf"),

@@ -54,6 +54,7 @@ def expected() -> dict[str, float]:
         "quads": quads.quads[19, 2, 1],
         "areas": quads.areas[19],
         "split": curvewise.area(P, Q, crossing="split", squared=True),
+        "polygon": curvewise.area(P, Q, crossing="polygon", closed=True),
         "continuous": curvewise.frechet_continuous(P, Q),
         "cutoff": 1.0,
         "prepared": curvewise.frechet(Q, many[0]),

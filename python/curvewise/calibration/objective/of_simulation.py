@@ -69,7 +69,9 @@ def of_simulation(criterion: Criterion, P: Array) -> OfSimulation:
     if criterion.part == "simulation":  # the curve that is matched to a part comes first
         return OfSimulation(partial(_dtw_of_simulation, P, options), residuals)
     differentiable = measure in ("curve_length", "dtw") or (
-        measure == "area" and options.get("spacing") not in ("arc_length", "function")
+        measure == "area"
+        and options.get("spacing") not in ("arc_length", "function")
+        and not options.get("closed")
     )
     named: dict[str, Any] = {"measure": measure, **options}
     gradient = partial(value_and_gradient, P, **named) if differentiable else None

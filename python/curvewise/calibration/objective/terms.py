@@ -139,7 +139,8 @@ class Term(ABC):
     def is_area_of_pieces(self) -> bool:
         """Whether the value adds up absolute areas of pieces: area with spacing "matched"."""
         options = self.criterion.condition.options
-        is_of_pieces = options.get("spacing") == "matched" and not options.get("squared")
+        others = options.get("squared") or options.get("closed")
+        is_of_pieces = options.get("spacing") == "matched" and not others
         return self.criterion.measure == "area" and is_of_pieces
 
     @property
