@@ -13,12 +13,13 @@ from .._bounds import on_its_scale
 from ..curves.inputs import Array
 from ..files.column_units import factor_of, in_mpa
 from ..materials import MATERIALS, Material
-from ..materials.options import material_options
+from ..materials.options import MaterialOption, material_options
 from ..solvers.cards import FORMATS
 from .reading import (
     ColumnsError,
     Said,
     add_repeated,
+    one_for_each,
     prepared_file,
     said_of_each,
     warnings_printed,
@@ -55,12 +56,20 @@ def add_fit(commands: Any) -> None:
     )
     for option in material_options(MATERIALS.values()).values():
         command.add_argument(
-            f"--{option.name}",
-            type=str if option.choices else int,
+            _flag(option),
+            type=type(option.default),
             choices=option.choices or None,
             metavar=None if option.choices else "N",
             help=f"option of {', '.join(option.materials)} (default: {option.default})",
         )
+    command.add_argument(
+        "--rate",
+        action="append",
+        type=float,
+        metavar="N",
+        help="rate of strain [1/s] of johnson-cook: once for all tests, or once for each, in "
+        "their order (default: 1.0)",
+    )
     _add_known(command)
     command.add_argument(
         "--measure", default="sum_of_squares", help="what is minimised; sum_of_squares by default"
@@ -77,6 +86,11 @@ def add_fit(commands: Any) -> None:
         help="fit tests that do not begin at zero strain and stress as they are",
     )
     _add_output(command)
+
+
+def _flag(option: MaterialOption) -> str:
+    """Return the flag of an option of a material."""
+    return "--" + option.name.replace("_", "-")
 
 
 def _summary(kind: type[Material]) -> str:
@@ -188,6 +202,7 @@ def _fit(arguments: argparse.Namespace) -> int:
 
     require_matplotlib()
     material = _material(arguments)
+    rates = _rates(arguments, material)
     fixed, bounds = _in_units(arguments)
     files = arguments.tests
     with warnings_printed():
@@ -205,6 +220,7 @@ def _fit(arguments: argparse.Namespace) -> int:
             fixed=fixed,
             bounds=bounds,
             cycles=arguments.cycles,
+            rates=rates,
             seed=arguments.seed,
             units=arguments.units,
             progress=sys.stderr.isatty(),
@@ -238,11 +254,22 @@ def _material(arguments: argparse.Namespace) -> Material:
             continue
         if kind.name not in option.materials:
             raise ValueError(
-                f"--{option.name} is an option of {', '.join(option.materials)}; leave it out for "
+                f"{_flag(option)} is an option of {', '.join(option.materials)}; leave it out for "
                 f"{kind.name}"
             )
         given[option.name] = value
     return kind(**given)
+
+
+def _rates(arguments: argparse.Namespace, material: Material) -> list[float] | None:
+    """Return the rate of strain of each test, if it is given."""
+    if arguments.rate is None:
+        return None
+    if not hasattr(material, "rate"):
+        raise ValueError(
+            f"--rate is an option of johnson-cook; leave it out for {arguments.material}"
+        )
+    return one_for_each("--rate", arguments.rate, len(arguments.tests))
 
 
 def _ask_about_beginnings(tests: list[Any], units: str) -> None:

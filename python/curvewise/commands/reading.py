@@ -34,6 +34,7 @@ __all__ = [
     "add_repeated",
     "flags_of",
     "named_for",
+    "one_for_each",
     "prepared_file",
     "read_file",
     "said_of_each",
@@ -154,14 +155,19 @@ def said_of_each(arguments: argparse.Namespace, count: int) -> list[Said]:
             continue
         if option.kind == "flag":
             values = [values]
-        if len(values) not in (1, count):
-            raise ValueError(
-                f"{option.flag} is given {len(values)} times for {count} files; give it once for "
-                "all files, or once for each"
-            )
-        for i, one in enumerate(each):
-            one[option.name] = values[i % len(values)]
+        for one, value in zip(each, one_for_each(option.flag, values, count), strict=True):
+            one[option.name] = value
     return list(map(_said, each))
+
+
+def one_for_each(flag: str, values: Sequence[Any], count: int) -> list[Any]:
+    """Return the value of an option for each of `count` files, given once or once for each."""
+    if len(values) not in (1, count):
+        raise ValueError(
+            f"{flag} is given {len(values)} times for {count} files; give it once for all files, "
+            "or once for each"
+        )
+    return [values[i % len(values)] for i in range(count)]
 
 
 def said_of_two(arguments: argparse.Namespace) -> list[Said]:

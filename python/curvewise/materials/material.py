@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any, ClassVar
 
 from .._bounds import Bounds, Log, on_its_scale
@@ -78,7 +78,7 @@ class Material(MaterialPoint, ABC):
         ------
         ValueError
             If a test does not have two columns, or `control` is none of these. If `rates` has
-            another length than the tests, or the material has no rate.
+            another length than the tests, one is not positive, or the material has no rate.
         """
         tests = [
             strain_and_stress(experiment, f"experiments[{i}]")
@@ -89,6 +89,8 @@ class Material(MaterialPoint, ABC):
                 raise ValueError(f"{type(self).__name__} has no rate of strain; leave rates out")
             if len(rates) != len(tests):
                 raise ValueError(f"rates has {len(rates)} entries for {len(tests)} tests")
+            for rate in rates:
+                _ = replace(self, rate=float(rate)).names  # type: ignore[call-arg]  # checks it
         return DrivenModel(
             self,
             tuple(test[:, 0].copy() for test in tests),

@@ -10,6 +10,8 @@ from .material import Material
 
 __all__ = ["MaterialOption", "material_options"]
 
+_NOT_OFFERED = ("rtol", "rate")  # a tolerance, and an option of each test
+
 
 @dataclass(frozen=True)
 class MaterialOption:
@@ -18,9 +20,9 @@ class MaterialOption:
     Attributes
     ----------
     name : str
-    default : str or int
+    default : str, int or float
     choices : tuple of str
-        The words to choose from; empty if the option is a whole number.
+        The words to choose from; empty if the option is a number.
     materials : tuple of str
         The names of the materials that have it.
     """
@@ -32,7 +34,7 @@ class MaterialOption:
 
 
 def material_options(kinds: Iterable[type[Material]]) -> dict[str, MaterialOption]:
-    """Return the options of some materials that are words or whole numbers, by name.
+    """Return the options of some materials that are words or numbers, by name.
 
     Parameters
     ----------
@@ -48,9 +50,9 @@ def material_options(kinds: Iterable[type[Material]]) -> dict[str, MaterialOptio
     for kind in kinds:
         hints = get_type_hints(kind)
         for one in fields(kind):
+            if one.name in _NOT_OFFERED:
+                continue
             choices = get_args(hints[one.name])
-            if not choices and hints[one.name] is not int:
-                continue  # a tolerance
             before = found[one.name].materials if one.name in found else ()
             found[one.name] = MaterialOption(one.name, one.default, choices, (*before, kind.name))
     return found

@@ -19,7 +19,7 @@ from ..fitting.moduli import check_units, modulus_of
 from ..fitting.recorded_cycles import whole_record
 from ..fitting.units_of_tests import doubt_of
 from ..materials import MATERIALS, DrivenModel, Material
-from ..materials.options import material_options
+from ..materials.options import MaterialOption, material_options
 from ..solvers.cards import FORMATS
 from . import keys
 from .keys import StudyTable, key
@@ -65,6 +65,13 @@ class MaterialModel:
         return MATERIALS[self.material](**self.options)
 
 
+def _reader_of(option: MaterialOption) -> Any:
+    """Return what reads an option of a material."""
+    if option.choices:
+        return keys.choice(option.choices)
+    return keys.positive if isinstance(option.default, float) else keys.at_least(0)
+
+
 def is_material(given: Any) -> bool:
     """Whether a table [model] has a material."""
     return isinstance(given, Mapping) and "material" in given
@@ -77,12 +84,7 @@ def read_material(source: Source, path: KeyPath, given: Mapping[str, Any]) -> Ma
         table.problem("material", "stands beside command; give one of them, a solver or a material")
         return None
     options = material_options(MATERIALS.values())
-    chosen = table.take(
-        {
-            option.name: keys.choice(option.choices) if option.choices else keys.at_least(0)
-            for option in options.values()
-        }
-    )
+    chosen = table.take({option.name: _reader_of(option) for option in options.values()})
     model = table.read(MaterialModel, options=chosen)
     if not table.is_right:
         return None
@@ -97,6 +99,19 @@ def read_material(source: Source, path: KeyPath, given: Mapping[str, Any]) -> Ma
         except ValueError as error:
             table.problem("", f"cannot be: {error}")
     return model if table.is_right else None
+
+
+def _rates(
+    source: Source, material: Material, name: str, tests: Sequence[MeasuredTest]
+) -> list[float] | None:
+    """Return the rate of strain of each test, or None if no test has one."""
+    rates = [test.rate for test in tests if test.rate is not None]
+    for i, test in enumerate(tests):
+        if test.rate is not None and not hasattr(material, "rate"):
+            source.problem(("tests", i, "rate"), f"is a rate of strain, and {name} has none")
+        if rates and test.rate is None:
+            source.problem(("tests", i), "needs a rate, because another test has one")
+    return rates or None
 
 
 def drive(
@@ -123,6 +138,7 @@ def drive(
         told = test.factors or test.x is not None
         if not told and (doubt := doubt_of(given_tests[i], model.units)):
             source.problem(("tests", i), doubt.asked("study"))
+    rates = _rates(source, material, model.material, tests)
     source.raise_problems()
 
     def each(what: Callable[[list[Any]], T]) -> None:
@@ -148,7 +164,7 @@ def drive(
     except ValueError as error:
         source.problem(("parameters",), f"{error} (the others are read off the tests)")
     source.raise_problems()
-    driven = DrivenTests.of(material, given_tests, cycles=model.cycles)
+    driven = DrivenTests.of(material, given_tests, cycles=model.cycles, rates=rates)
     modulus = modulus_of(given_tests)
     made = replace(model, driven=driven.model, modulus_read=modulus, beginning=beginning)
     compared = zip(tests, driven.compared, strict=True)

@@ -118,6 +118,7 @@ class MeasuredTest(ComparisonKeys, Columns):
     toe: bool | tuple[float, float] = said_of_file("toe")
     true: bool = said_of_file("true")
     cycle_column: str | int | None = said_of_file("cycle_column")
+    rate: float | None = key(keys.positive)
     every: int = key(keys.at_least(1), 1)
     axes: tuple[str, ...] = key(keys.texts, ())
     weight: float = key(keys.not_negative, 1.0)
@@ -161,6 +162,8 @@ def read_test(
     if models is None:
         _check_for_material(table)
     else:
+        if "rate" in table.given:
+            table.problem("rate", "is of a test that drives a material; remove it")
         _check_model(table, models)
     if models is not None and "output" not in table.given:
         _output(source, (*table.path, "output"), {})  # reports the missing keys

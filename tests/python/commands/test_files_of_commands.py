@@ -13,7 +13,7 @@ from curvewise.commands import main
 from curvewise.commands.command_line import _parser
 from curvewise.commands.reading import said_of_each, said_of_two
 from curvewise.files.file_options import READING, Reading
-from curvewise.materials import ChabocheVoce
+from curvewise.materials import ChabocheVoce, JohnsonCook
 from curvewise.studies import Study, StudyError
 from curvewise.studies.keys import described
 from curvewise.studies.measured_tests import Columns
@@ -40,6 +40,70 @@ def three_files(folder: Path) -> list[str]:
         sheet.append(row)
     workbook.save(book)
     return list(map(str, (plain, below, book)))
+
+
+RATES = (1e-3, 1.0, 1e3)
+COOK = {"E": 200e3, "A": 350.0, "B": 275.0, "n": 0.36, "C": 0.022}
+
+
+@pytest.fixture
+def pulled(tmp_path: Path) -> list[str]:
+    """Write tension tests at three rates of strain."""
+    strain = np.linspace(0.0, 0.08, 161)
+    files = []
+    for rate in RATES:
+        stress = JohnsonCook(rate=rate, reference_rate=1e-3).stress(strain, COOK)
+        files.append(str(tmp_path / f"at_{rate:g}.csv"))
+        np.savetxt(files[-1], np.c_[strain, stress], delimiter=",", header="strain,stress")
+    return files
+
+
+def test_fit_takes_a_rate_for_each_file(tmp_path: Path, pulled: list[str], capsys) -> None:
+    said = ["--material", "johnson-cook", "--fix", "E=200e3", "--output", str(tmp_path / "out")]
+    rates = [word for rate in RATES for word in ("--rate", str(rate))]
+    reference = ["--reference-rate", "1e-3"]
+    cards = ["--card", "ls-dyna", "--accept-undetermined"]
+    assert main(["fit", *pulled, *said, *rates, *reference, *cards]) == 0
+    rows = (tmp_path / "out" / "parameters.csv").read_text().splitlines()[1:]
+    found = {name: float(value) for name, _, value, *_ in (row.split(",") for row in rows)}
+    assert found == pytest.approx(COOK, rel=1e-3)
+    (card,) = (tmp_path / "out").glob("*.k")
+    assert "0.001" in card.read_text()
+    for given, message in (
+        (["--rate", "1", "--rate", "2"], "--rate is given 2 times for 3 files; give it once for"),
+        (["--rate", "1", "--material", "swift"], "--rate is an option of johnson-cook; leave it"),
+        (["--rate", "-1"], "a rate of strain is -1"),
+        ([*reference, "--material", "swift"], "--reference-rate is an option of johnson-cook;"),
+    ):
+        assert main(["fit", *pulled, *said, *given]) == 1
+        assert message in capsys.readouterr().err
+
+
+def test_a_study_has_a_rate_for_each_test(tmp_path: Path, pulled: list[str]) -> None:
+    def study(*lines: str, material: str = "johnson-cook", first: str = "rate = 0.001") -> Study:
+        tests = [
+            f"[[tests]]\nfile = {Path(file).name!r}\n{line}\n"
+            for file, line in zip(pulled, (first, "rate = 1.0", "rate = 1e3"), strict=True)
+        ]
+        path = tmp_path / "study.toml"
+        path.write_text(
+            "\n".join([*tests, f"[model]\nmaterial = {material!r}", *lines])
+            + '\n[parameters]\nE = 200e3\n[search]\nmeasure = "sum_of_squares"\n'
+        )
+        return Study.read(path)
+
+    found = study("reference_rate = 1e-3").run(progress=False)
+    assert found.fit is not None
+    assert found.fit.parameters == pytest.approx(COOK, rel=1e-3)
+    for lines, options, message in (
+        ((), {"material": "swift"}, "is a rate of strain, and swift has none"),
+        ((), {"first": ""}, "needs a rate, because another test has one"),
+        ((), {"first": "rate = 0"}, "a number above 0"),
+        (("reference_rate = -1",), {}, "a number above 0"),
+        (("reference_rate = 1",), {"material": "swift"}, "is no option of swift"),
+    ):
+        with pytest.raises(StudyError, match=message):
+            study(*lines, **options)
 
 
 def test_fit_takes_an_option_for_each_file(tmp_path: Path, capsys) -> None:

@@ -70,6 +70,7 @@ def test_a_fit_of_several_rates_finds_all_parameters() -> None:
         (lambda: JohnsonCook(rate=0.0).names, "a rate of strain is 0; give a positive number"),
         (lambda: ChabocheVoce().driven_by(np.eye(2), rates=[1.0]), "ChabocheVoce has no rate of"),
         (lambda: JohnsonCook().driven_by(np.eye(2), rates=RATES), "rates has 3 entries for 1 test"),
+        (lambda: JohnsonCook().driven_by(np.eye(2), rates=[0.0]), "a rate of strain is 0; give a"),
         (lambda: JohnsonCook().stress([0.0], STEEL | {"n": 0.01}), "n is 0.01; give a number from"),
         (
             lambda: JohnsonCook(rate=1e-30).stress([0.0], STEEL),
