@@ -74,11 +74,12 @@ def positional(function: Any) -> str:
     return "".join(p.name for p in parameters if p.kind is p.POSITIONAL_OR_KEYWORD)
 
 
-def without_bounds(options: dict[str, Any]) -> dict[str, Any]:
+def without_bounds(name: str, options: dict[str, Any]) -> dict[str, Any]:
     """Return the options that the library has, too, without those that change the type of the
     result.
     """
-    return {key: value for key, value in options.items() if key not in ("bounds", *OF_PYTHON)}
+    of_python = {"bounds", *OF_PYTHON} - set(_core.measures().get(name, ()))
+    return {key: value for key, value in options.items() if key not in of_python}
 
 
 def measure_of(function: str) -> str:
@@ -131,7 +132,7 @@ def test_python_has_every_material_of_the_library() -> None:
 
 @pytest.mark.parametrize("name", MEASURES)
 def test_every_layer_has_the_same_options_and_defaults(name: str) -> None:
-    options = without_bounds(keyword_defaults(MEASURES[name].function))
+    options = without_bounds(name, keyword_defaults(MEASURES[name].function))
     assert list(options.items()) == list(_core.measures()[name].items())
     for option, default in options.items():
         if option not in OWN_DEFAULTS.get(name, ()):
@@ -139,7 +140,7 @@ def test_every_layer_has_the_same_options_and_defaults(name: str) -> None:
         if option in CHOICES:
             assert default in get_args(CHOICES[option][0])
     plain = {key: value for key, value in options.items() if key not in NOT_OF_THE_REFERENCE}
-    assert without_bounds(keyword_defaults(getattr(reference, name))) == plain
+    assert without_bounds(name, keyword_defaults(getattr(reference, name))) == plain
     if name in OF_CPP_AND_PYTHON:
         return
     expected = {
@@ -158,10 +159,11 @@ def test_every_layer_has_the_same_options_and_defaults(name: str) -> None:
 
 @pytest.mark.parametrize("function", families())
 def test_functions_of_a_measure_take_its_options(function: str) -> None:
-    options = keyword_defaults(getattr(measures, function))
-    for option in OF_PYTHON:
-        options.pop(option, None)
     measure = measure_of(function)
+    options = keyword_defaults(getattr(measures, function))
+    of_python = {*OF_PYTHON} - set(_core.measures().get(measure, ()))
+    for option in of_python:
+        options.pop(option, None)
     of_measure = keyword_defaults(MEASURES[measure].function) if measure else {}
     if function.startswith("soft_dtw"):  # a loss, not a distance, and in none of their lists
         of_measure = keyword_defaults(measures.soft_dtw)
@@ -170,8 +172,8 @@ def test_functions_of_a_measure_take_its_options(function: str) -> None:
     assert options.items() <= of_measure.items()
     plain = {key: value for key, value in options.items() if key not in NOT_OF_THE_REFERENCE}
     of_reference = keyword_defaults(getattr(reference, function))
-    assert {o: v for o, v in of_reference.items() if o not in OF_PYTHON} == plain
-    options = without_bounds(options)
+    assert {o: v for o, v in of_reference.items() if o not in of_python} == plain
+    options = without_bounds(measure, options)
     if not measure or function == measure:
         return
     P = np.array([(0.0, 0.0), (1.0, 2.0), (3.0, 1.0)])
