@@ -11,6 +11,7 @@
 
 #include "bind_topics.hpp"
 #include "curvewise/closed_curves.hpp"
+#include "curvewise/common_part.hpp"
 #include "curvewise/gradient.hpp"
 #include "curvewise/soft_dtw.hpp"
 #include "interruptible.hpp"
@@ -354,6 +355,16 @@ void bind_measures(py::module_& module) {
     module.def("frechet_continuous_part", found<FrechetContinuousOptions, frechet_continuous_part>);
     module.def("hausdorff_continuous_points",
                found<HausdorffContinuousOptions, hausdorff_continuous_points>);
+    module.def("common_part", [](const CurveArray& P, const CurveArray& Q, double distance,
+                                 const py::dict& options) {
+        const auto find = [=](const CurveView& p, const CurveView& q,
+                              const CommonPartOptions& given, Control* control) {
+            return common_part(p, q, distance, given, control);
+        };
+        const CommonPart found = computed(P, Q, read_options<CommonPartOptions>(options), find);
+        return py::make_tuple(found.length, py::make_tuple(found.p.begin, found.p.end),
+                              py::make_tuple(found.q.begin, found.q.end));
+    });
     module.def("frechet_within", [](const CurveArray& P, const CurveArray& Q, double distance,
                                     bool continuous) {
         const auto decide = [=](const CurveView& p, const CurveView& q,

@@ -53,6 +53,7 @@ number = curvewise.erp(P, Q, gap=1) + curvewise.edr(P, Q) + curvewise.lcss(P, Q,
 number = curvewise.msm(P, Q, cost=1) + curvewise.twe(P, Q, stiffness=0) + curvewise.wdtw(P, Q)
 number = curvewise.hausdorff(P, Q, metric="cityblock")
 number = curvewise.area(P, Q, closed=True, crossing="polygon")
+part: curvewise.CommonPart = curvewise.common_part(P, Q, 0.5, metric="haversine")
 within: bool = bool(curvewise.tube(P, Q, 0.1, 0.2))
 number = curvewise.hausdorff_continuous(P, Q, directed=True)
 farthest: curvewise.FarthestPoints = curvewise.hausdorff_continuous_points(P, Q)

@@ -7,6 +7,7 @@
 #include "curvewise/block_distances.hpp"
 #include "curvewise/build_info.hpp"
 #include "curvewise/closed_curves.hpp"
+#include "curvewise/common_part.hpp"
 #include "curvewise/compare.hpp"
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"

@@ -16,6 +16,7 @@ from __future__ import annotations
 from .._names import names_alone
 from . import edit_distances
 from .area import area, area_quads
+from .common_part import common_part
 from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_info, dtw_path, dtw_table
 from .edit_distances import *  # noqa: F403  # the names that it lists
@@ -41,6 +42,7 @@ __all__ = [
     "StepPattern",
     "area",
     "area_quads",
+    "common_part",
     "curve_length",
     "curve_length_residuals",
     "dtw",

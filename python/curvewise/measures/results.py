@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Alignment",
     "AreaQuads",
+    "CommonPart",
     "DtwMean",
     "FarthestPoints",
     "Matching",
@@ -53,6 +54,24 @@ class AreaQuads(NamedTuple):
 
     def __repr__(self) -> str:
         return printed(self, self._asdict().items())
+
+
+@dataclass(frozen=True)
+class CommonPart:
+    """A section of P and a section of Q that are within a distance of each other.
+
+    Attributes
+    ----------
+    length : float
+        The length of the section of P, in units of the ground distance.
+    of_p, of_q : slice
+        The rows of each section: ``P[part.of_p]`` and ``Q[part.of_q]``. Empty if all pairs of
+        points are too far apart.
+    """
+
+    length: float
+    of_p: slice
+    of_q: slice
 
 
 @dataclass(frozen=True, repr=False)

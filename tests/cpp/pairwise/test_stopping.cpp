@@ -89,6 +89,8 @@ void single_calls() {
     hears("residuals",
           [&](Control* control) { curve_length_residuals(P, Q, out.data(), by_range, control); });
     hears("dtw_path", [&](Control* control) { return dtw_path(few, Q, {}, control); });
+    hears("common_part",
+          [&](Control* control) { return common_part(few, Q, 1.0, {}, control).length; });
     hears("frechet_path", [&](Control* control) { return frechet_path(few, Q, {}, control); });
     DtwOptions window;
     window.window = 1;

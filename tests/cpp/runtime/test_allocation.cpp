@@ -153,6 +153,7 @@ void single_calls() {
         const AreaOptions closed{Spacing::distance, crossing, false, true};
         fail_each("area_quads, closed", [&] { return area_quads(P, Q, closed).areas.back(); });
     }
+    fail_each("common_part", [&] { return common_part(P, Q, 1.0).length; });
     fail_each("area_quads", [&] { return area_quads(P, Q).areas.back(); });
     fail_each("pcm_match", [&] { return pcm_match(P, Q).value; });
     fail_each("dtw_path", [&] { return dtw_path(P, Q).distance; });
