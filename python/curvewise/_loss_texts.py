@@ -24,7 +24,7 @@ _HELD_PATH = "Time O(n m), memory O(n + m) for each pair and thread."
 _TEXTS = {
     "area": _Text(
         """\
-Options of :func:`curvewise.area`, except ``spacing="arc_length"`` and "function". Use
+Options of :func:`curvewise.area`, except ``spacing="arc_length"``, "function" and `closed`. Use
     ``spacing="matched"`` as a loss: it tolerates other increments and noise, and is continuous.""",
         """\
 Jekel et al. (2018). The cuts of the refinement, or the matching, are fixed. Time and memory of

@@ -41,7 +41,7 @@ struct Gradients {
     double* by_q = nullptr;
 };
 
-/// Not for Spacing::arc_length and Spacing::function: std::invalid_argument. With
+/// Not for Spacing::arc_length, Spacing::function and closed curves: std::invalid_argument. With
 /// Crossing::rearrange the value jumps, and the derivative is that between two jumps.
 CURVEWISE_EXPORT double value_and_gradients(const AreaOptions& options, const CurveView& P,
                                             const CurveView& Q, const Gradients& out,

@@ -52,7 +52,8 @@ def value_and_gradient(
         The name of the measure: "area", "curve_length", "dtw", "frechet", "frechet_continuous",
         "soft_dtw", "sum_of_squares".
     **options
-        Options of the measure; for area not ``spacing="arc_length"`` and "function".
+        Options of the measure; for area not ``spacing="arc_length"`` and "function", nor
+        ``closed=True``.
 
     Returns
     -------

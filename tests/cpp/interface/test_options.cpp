@@ -28,7 +28,7 @@ void choices_have_their_names() {
     CHECK_EQUAL(names(StepPattern{}).back(), std::string("mori2006"));
     CHECK_EQUAL(names(SlopeWeight{}), (Names{"a", "b", "c", "d"}));
     CHECK_EQUAL(names(Spacing{}), (Names{"distance", "x", "arc_length", "matched", "function"}));
-    CHECK_EQUAL(names(Crossing{}), (Names{"rearrange", "split"}));
+    CHECK_EQUAL(names(Crossing{}), (Names{"rearrange", "split", "polygon"}));
     CHECK_EQUAL(names(LengthScale{}), (Names{"mean", "mean_abs", "range"}));
     CHECK_EQUAL(names(Preset{}), (Names{"scaled", "paper", "raw"}));
 }
