@@ -13,6 +13,7 @@
 #include "curvewise/closed_curves.hpp"
 #include "curvewise/common_part.hpp"
 #include "curvewise/gradient.hpp"
+#include "curvewise/lower_bounds.hpp"
 #include "curvewise/soft_dtw.hpp"
 #include "interruptible.hpp"
 #include "numpy_view.hpp"
@@ -327,6 +328,11 @@ void bind_value(py::module_& module, const char* name, decltype(&value_of<DtwOpt
         });
 }
 
+template <auto bound>
+double lower_bound(const CurveArray& P, const CurveArray& Q, const py::dict& options) {
+    return computed(P, Q, read_options<LowerBoundOptions>(options), bound);
+}
+
 double bound_soft_dtw(const CurveArray& P, const CurveArray& Q, const py::dict& options) {
     return computed(P, Q, read_options<SoftDtwOptions>(options), soft_dtw);
 }
@@ -380,6 +386,9 @@ void bind_measures(py::module_& module) {
     module.def("value_and_gradient", gradient_by_name);
     module.def("values_and_gradients", gradients_of_pairs);
     module.def("soft_dtw", bound_soft_dtw);
+    module.def("lb_improved", lower_bound<lb_improved>);
+    module.def("lb_keogh", lower_bound<lb_keogh>);
+    module.def("lb_kim", lower_bound<lb_kim>);
     module.def("edit_path", edit_path);
     module.def("edit_table", edit_table);
     module.def("step_patterns", [] {

@@ -13,6 +13,7 @@
 #include "curvewise/curve.hpp"
 #include "curvewise/dtw_mean.hpp"
 #include "curvewise/gradient.hpp"
+#include "curvewise/lower_bounds.hpp"
 #include "curvewise/materials.hpp"
 #include "curvewise/matrix_profile.hpp"
 #include "curvewise/measure.hpp"  // and all measures

@@ -1,23 +1,18 @@
 """Lower bounds of dtw, by the names and definitions of their papers.
 
 A point of P is matched to some points of Q only. The box around these is its envelope, and its
-distance from the envelope is a lower bound of each of its pairs (Keogh & Ratanamahatana 2005). All
-envelopes are computed together: a section of points is covered by two blocks whose numbers of
-points are powers of two. Rounding is monotone, so no sum over the points of P exceeds the table's.
+distance from the envelope is a lower bound of each of its pairs (Keogh & Ratanamahatana 2005).
 """
 
 from __future__ import annotations
 
 from typing import get_args
 
-import numpy as np
-import numpy.typing as npt
-
-from .._options import BoundMetric, Window, check_choice, window_radius
-from ..curves.ground_distance import ground_distances, in_range
-from ..curves.inputs import Array, CurveLike
-from ..curves.pairs import checked_pair
-from ..curves.scaling import times_power_of_two
+from .._core import lb_improved as compiled_lb_improved
+from .._core import lb_keogh as compiled_lb_keogh
+from .._core import lb_kim as compiled_lb_kim
+from .._options import BoundMetric, Window, check_choice
+from ..curves.inputs import CurveLike, as_curves
 
 __all__ = ["lb_improved", "lb_keogh", "lb_kim"]
 
@@ -80,10 +75,7 @@ def lb_keogh(
     4.0
     """
     check_choice("metric", metric, get_args(BoundMetric))
-    first, second = checked_pair(P, Q, "lb_keogh")
-    first, second, exponent = in_range(first, second, metric)
-    nearest = _projection(first, second, window)
-    return _restored(_sum(ground_distances(first, nearest, metric, 2.0)), exponent)
+    return compiled_lb_keogh(*as_curves(P, Q), {"metric": metric, "window": window})
 
 
 def lb_improved(
@@ -137,19 +129,7 @@ def lb_improved(
     3.0
     """
     check_choice("metric", metric, get_args(BoundMetric))
-    first, second = checked_pair(P, Q, "lb_improved")
-    if first.shape[1] > 1 and metric not in ("sqeuclidean", "cityblock"):
-        raise ValueError(
-            f"metric is {metric!r}; lb_improved of {first.shape[1]} coordinates needs "
-            "metric='sqeuclidean' or 'cityblock'; lb_keogh has the others"
-        )
-    first, second, exponent = in_range(first, second, metric)
-    nearest = _projection(first, second, window)
-    back = _projection(second, nearest, window)
-    total = _sum(ground_distances(first, nearest, metric, 2.0))
-    total += _sum(ground_distances(second, back, metric, 2.0))
-    rounding = (len(first) + len(second) + first.shape[1] + 16) * 2.0**-52
-    return _restored(total * (1.0 - rounding), exponent)
+    return compiled_lb_improved(*as_curves(P, Q), {"metric": metric, "window": window})
 
 
 def lb_kim(P: CurveLike, Q: CurveLike, *, metric: BoundMetric = "euclidean") -> float:
@@ -194,52 +174,4 @@ def lb_kim(P: CurveLike, Q: CurveLike, *, metric: BoundMetric = "euclidean") -> 
     2.0
     """
     check_choice("metric", metric, get_args(BoundMetric))
-    first, second = checked_pair(P, Q, "lb_kim")
-    first, second, exponent = in_range(first, second, metric)
-    zeros = np.zeros(first.shape[1])
-    lowest, highest = (
-        np.diag(extreme(first, axis=0) - extreme(second, axis=0)) for extreme in (np.min, np.max)
-    )
-    ends = ground_distances(first[[0, -1]], second[[0, -1]], metric, 2.0)
-    extremes = ground_distances(np.concatenate([lowest, highest]), zeros, metric, 2.0)
-    return _restored(max(ends.max(), extremes.max()), exponent)
-
-
-def _sum(terms: Array) -> float:
-    """Return a sum in the order of the table, in which no partial sum exceeds a path's."""
-    with np.errstate(over="ignore", under="ignore"):
-        return float(np.add.accumulate(terms)[-1])
-
-
-def _restored(value: float, exponent: int) -> float:
-    return float(times_power_of_two(np.array(value), exponent))
-
-
-def _projection(P: Array, Q: Array, window: Window) -> Array:
-    """Return each point of P, moved to the nearest of its box around points of Q."""
-    first, last = _band(len(P), len(Q), window)
-    spans = np.ldexp(1.0, np.frexp(last - first + 1.0)[1] - 1).astype(np.int64)  # powers of two
-    low, high = np.empty(P.shape), np.empty(P.shape)
-    lows = highs = Q
-    span = 1
-    while True:
-        rows = np.flatnonzero(spans == span)
-        ends = last[rows] - span + 1
-        low[rows] = np.minimum(lows[first[rows]], lows[ends])
-        high[rows] = np.maximum(highs[first[rows]], highs[ends])
-        if span == spans.max():
-            return np.clip(P, low, high)
-        lows = np.minimum(lows[:-span], lows[span:])
-        highs = np.maximum(highs[:-span], highs[span:])
-        span *= 2
-
-
-def _band(n: int, m: int, window: Window) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-    """Return the first and the last column of each row in the Sakoe-Chiba band."""
-    radius = window_radius(window, n, m)
-    if radius is None or n == 1 or m == 1:
-        return np.zeros(n, dtype=np.int64), np.full(n, m - 1)
-    limit = min(radius, max(n, m)) * (max(n, m) - 1)
-    middle = np.arange(n) * (m - 1)
-    first = np.maximum(-((limit - middle) // (n - 1)), 0)
-    return first, np.minimum((middle + limit) // (n - 1), m - 1)
+    return compiled_lb_kim(*as_curves(P, Q), {"metric": metric})

@@ -224,7 +224,7 @@ def test_the_stub_has_what_the_module_has() -> None:
     # Options of dtw, frechet and their paths.
     closed = {f"closed_{name}" for name in ("dtw", "dtw_path", "frechet", "frechet_path")}
     takes_options = {name for name in measures.__all__ if measure_of(name)} - {"frechet_within"}
-    others = bounds | closed | {"soft_dtw"}
+    others = bounds | closed | {"soft_dtw", "lb_improved", "lb_keogh", "lb_kim"}
     assert with_options == (takes_options | others) - MEASURES.keys()
 
 
