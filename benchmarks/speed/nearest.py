@@ -129,7 +129,7 @@ def compare_index(
 ) -> np.ndarray[Any, Any]:
     """Time an index against all distances, which its answers must equal; return the indices."""
     making, index = timed(lambda: curvewise.Index(known, measure, **options))
-    counted = index._index.kneighbors(new, 1, 1, None)[2]
+    counted = index._index.kneighbors(new, 1, 1, None, 0)[2]
     one, (distances, indices) = timed(lambda: index.kneighbors(new, 1))
     two, again = timed(lambda: index.kneighbors(new, 1, workers=2))
     some = new[: max(1, len(new) // 5)] if len(known) > 1000 else new
