@@ -78,6 +78,12 @@ py::dict changed_options(const Options& options) {
     return changed;
 }
 
+// What to write instead of an option, or nothing.
+std::string option_hint(const char* measure, const py::handle& given, const py::list& known) {
+    const py::object function = py::module_::import("curvewise._names").attr("option_hint");
+    return function(measure, given, known).cast<std::string>();
+}
+
 // "; did you mean 'dtw'?", or nothing.
 std::string did_you_mean(const py::handle& given, const py::list& known) {
     const py::object function = py::module_::import("curvewise._names").attr("did_you_mean");
@@ -265,7 +271,7 @@ void refuse_unknown_option(const char* measure, const py::dict& given, const py:
         if (valid.contains(name)) continue;
         throw py::type_error(std::string(measure) + " has no option " +
                              py::repr(name).cast<std::string>() + "; it has " + list +
-                             did_you_mean(name, known));
+                             option_hint(measure, name, known));
     }
     throw py::type_error("the options of " + std::string(measure) +
                          " changed while they were read");

@@ -95,7 +95,11 @@ if not TYPE_CHECKING:
         """Import a submodule that ``import curvewise`` leaves out to be fast."""
         if name in _LAZY:
             return import_module(f"{__name__}.{name}")
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        message = f"module {__name__!r} has no attribute {name!r}"
+        if measure := {"ddtw": "dtw", "wddtw": "wdtw"}.get(name):
+            message += f"; write {measure}(derivative(P), derivative(Q)), with "
+            message += "curvewise.curves.derivative"
+        raise AttributeError(message)
 
 
 def __dir__() -> list[str]:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from difflib import get_close_matches
 
-__all__ = ["did_you_mean", "names_alone"]
+__all__ = ["did_you_mean", "names_alone", "option_hint"]
 
 # What other packages call it, without capitals, blanks, hyphens and underscores.
 _ELSEWHERE = {
     "band": "window",
+    "itakura": "typeIIIc",
     "discretefrechet": "frechet",
     "l1": "cityblock",
     "l2": "euclidean",
@@ -25,6 +26,23 @@ _ELSEWHERE = {
     "taxicab": "cityblock",
     "threads": "workers",
 }
+
+# What to write for options of other packages, and of papers, that no measure has.
+_WITHOUT_OPTION = {
+    "derivative": "give slopes: curvewise.curves.derivative(curve) for each curve",
+    "dependent": "for independent coordinates, add {measure}(P[:, c], Q[:, c]) over all c",
+    "globalconstraint": "give window=, or step_pattern='typeIIIc' for Itakura's slopes",
+    "itakuramaxslope": "step_pattern='typeIIIc' of dtw has Itakura's slopes",
+    "timestamps": "points are one unit of time apart",
+    "weights": "multiply the coordinates: P * w and Q * w, with the roots of weights of squares",
+}
+_WITHOUT_OPTION["independent"] = _WITHOUT_OPTION["dependent"]
+
+
+def option_hint(measure: str, name: str, known: Iterable[str]) -> str:
+    """Return "; ...": what to write instead of an option, or close matches of known options."""
+    remedy = _WITHOUT_OPTION.get(_plain(name))
+    return f"; {remedy.format(measure=measure)}" if remedy else did_you_mean([name], known)
 
 
 def did_you_mean(

@@ -116,6 +116,12 @@ class Index:
         layout: Layout | None = None,
         **options: Any,
     ) -> None:
+        if callable(measure) or callable(options.get("metric")):
+            raise ValueError(
+                "an index needs the lower bounds of a named measure and metric, and a function has "
+                "none; compute all distances, np.argsort(curvewise.cdist(queries, curves, ...)), "
+                "or give curvewise.sklearn.CurveKNeighborsClassifier a function as its measure"
+            )
         self._measure = _check_names(measure, options)
         self._options = options
         self._crs = check_reference_systems(options, curves=curves)

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import curvewise
 from curvewise import Index, Prepared, cdist, dtw_mean, medoid, pdist
 from curvewise._options import Metric
 from curvewise.measures.registry import MEASURES
@@ -140,6 +141,44 @@ def test_errors(message, call, error):
         call()
     text = str(caught.value)
     assert text.startswith(message) if message.endswith("<function") else text == message
+
+
+@pytest.mark.parametrize(
+    ("call", "advice"),
+    [
+        (
+            lambda: cdist([GOOD], dependent=False),
+            "prune; for independent coordinates, add dtw(P[:, c], Q[:, c]) over all c",
+        ),
+        (
+            lambda: Prepared(GOOD, "frechet", weights=[1.0, 2.0]),
+            "; multiply the coordinates: P * w and Q * w, with the roots of weights of squares",
+        ),
+        (
+            lambda: pdist([GOOD], "twe", time_stamps=[0, 1]),
+            "; points are one unit of time apart",
+        ),
+        (lambda: pdist([GOOD], "dtw", step_pattern="itakura"), "; did you mean 'typeIIIc'?"),
+        (
+            lambda: curvewise.wddtw,
+            "'wddtw'; write wdtw(derivative(P), derivative(Q)), with curvewise.curves.derivative",
+        ),
+        (
+            lambda: Index([GOOD], lambda P, Q: 0.0),
+            "np.argsort(curvewise.cdist(queries, curves, ...)), or give "
+            "curvewise.sklearn.CurveKNeighborsClassifier a function as its measure",
+        ),
+        (
+            lambda: Index([GOOD], metric=lambda p, q: np.abs(p[:, :1] - q[:, 0])),
+            "np.argsort(curvewise.cdist(queries, curves, ...)), or give "
+            "curvewise.sklearn.CurveKNeighborsClassifier a function as its measure",
+        ),
+    ],
+)
+def test_what_other_packages_have_names_the_way_that_works(call, advice):
+    with pytest.raises((AttributeError, TypeError, ValueError)) as caught:
+        call()
+    assert str(caught.value).endswith(advice)
 
 
 def test_a_frame_is_no_list_of_curves():

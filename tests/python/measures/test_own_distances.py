@@ -368,7 +368,7 @@ def test_what_has_no_bounds_of_it_says_so() -> None:
     match = "a metric of one's own is for dtw and frechet of one pair.*nothing else computes with"
     calls: list[Callable[[], object]] = [
         lambda: curvewise.Prepared(P, "dtw", metric=canberra),
-        lambda: curvewise.Index([P, Q], "frechet", metric=canberra),
+        lambda: curvewise.Index([P, Q], "frechet", metric=np.ones((5, 4))),
         lambda: curvewise.subsequence(P, Q, metric=canberra),
         lambda: curvewise.value_and_gradient(P, Q, "dtw", metric=canberra),
         lambda: curvewise.cdist([P, Q], metric=np.ones((5, 4))),
