@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import platform
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
+import numpy as np
+
+from ..._extras import required
 from ...installation import build_info
 from ..models.identity import qualified_name
 from ..records.search_record import text_of
@@ -37,12 +39,11 @@ def details_of(problem: Problem, execution: Execution, max_runs: int | None) -> 
 
 def _versions() -> dict[str, str]:
     info = build_info()
-    versions = {"curvewise": info["version"], "instruction set": info["active"]}
-    for package in ("numpy", "scipy"):
-        try:
-            versions[package] = version(package)
-        except PackageNotFoundError:  # not installed by pip
-            versions[package] = "unknown"
-    versions["Python"] = platform.python_version()
-    versions["platform"] = platform.platform()
-    return versions
+    return {
+        "curvewise": info["version"],
+        "instruction set": info["active"],
+        "numpy": np.__version__,
+        "scipy": required("scipy").__version__,
+        "Python": platform.python_version(),
+        "platform": platform.platform(),
+    }
