@@ -172,3 +172,14 @@ def test_a_surface_at_several_points_is_that_at_each():
     points = random.random((4, 3))
     each = np.array([surface.at(point) for point in points])
     np.testing.assert_allclose(surface.at(points), each, rtol=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_kinks_of_a_model_are_not_its_noise(seed):
+    """Runs of a model with kinks, such as yielding, which no smooth surface fits exactly."""
+    random = np.random.default_rng(seed)
+    points, sides = random.random((44, 5)), np.ones(60)
+    kinked = np.abs((points - 0.5) @ random.standard_normal((5, 60)) + 0.1)
+    surface = KrigedSurface(points, kinked, points[0], sides)
+    assert surface.noise == 0.0
+    np.testing.assert_allclose(surface.at(points[0]), kinked[0], atol=1e-6)

@@ -34,7 +34,7 @@ _ROOT = math.sqrt(5.0)
 _LENGTH = 4.0  # of the kernel, in distances of the farthest run from the centre
 _NUGGETS = 10.0 ** np.arange(-8.0, 0.5, 0.5)
 _FEWEST = 4  # degrees of freedom required to estimate noise
-_EVIDENCE = 2.0  # and the gain in likelihood, its logarithm by coordinate
+_EVIDENCE = 0.5  # and the gain in likelihood, its logarithm by coordinate and degree of freedom
 _UNIT = 0.2  # of a side of the box, from which on coordinates count by their logarithm
 _LARGEST = 100.0  # a transformed coordinate whose hyperbolic sine is still finite
 _PLACES = 3  # random places from which the minimum of a value is sought
@@ -169,7 +169,7 @@ class _Contrasts:
             vectors.shape[1] * np.log(self._sums).sum(axis=1) + count * np.log(scale)
         )
         best = int(np.argmax(likelihoods))
-        if likelihoods[best] - likelihoods[0] < _EVIDENCE * vectors.shape[1]:
+        if likelihoods[best] - likelihoods[0] < _EVIDENCE * count:
             best = 0
         nugget = float(_NUGGETS[best])
         deviation = math.sqrt(nugget * float(scale[best])) if best > 0 else 0.0
