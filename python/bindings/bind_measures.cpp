@@ -355,6 +355,12 @@ void bind_measures(py::module_& module) {
     module.def("dtw_path", found<DtwOptions, dtw_path>);
     module.def("frechet_info", found<FrechetOptions, frechet_info>);
     module.def("dtw_info", found<DtwOptions, dtw_info>);
+    module.def("closed_frechet_continuous",
+               found_number<FrechetContinuousOptions, closed_frechet_continuous>);
+    module.def("closed_frechet_continuous_bounds",
+               found<FrechetContinuousOptions, closed_frechet_continuous_bounds>);
+    module.def("closed_frechet_continuous_path",
+               found<FrechetContinuousOptions, closed_frechet_continuous_path>);
     module.def("frechet_continuous_bounds",
                found<FrechetContinuousOptions, frechet_continuous_bounds>);
     module.def("frechet_continuous_path", found<FrechetContinuousOptions, frechet_continuous_path>);

@@ -28,6 +28,7 @@ using continuous::BoxedCurve;
 using continuous::CurveSummary;
 using continuous::FreeSet;
 using continuous::LeashSearch;
+using continuous::PathEnds;
 using continuous::plain_scale;
 using continuous::Radius;
 using continuous::VertexWalk;
@@ -61,10 +62,10 @@ class FrechetContinuousMeasure : public pairwise::Distance {
     template <class Use>
     static auto with_search_of(const PreparedP& P, const PreparedQ& Q, const BoxedCurve& p,
                                const BoxedCurve& q, const RangeScale& range, const Call& call,
-                               Use use) {
+                               PathEnds ends, Use use) {
         return with_dimension(p.dim(), [&](auto dim) {
             LeashSearch<dim> search(P.checked.curve, Q.checked.curve, p, q, range, call.poller,
-                                    call.memory);
+                                    call.memory, ends);
             return use(search);
         });
     }
@@ -73,19 +74,19 @@ class FrechetContinuousMeasure : public pairwise::Distance {
     template <class Use>
     static auto with_search(const PreparedP& P, const PreparedQ& Q, const Call& call, Use use) {
         const bool swap = P.boxed.size() < Q.boxed.size();
-        return with_ordered_search(swap ? Q : P, swap ? P : Q, call, use);
+        return with_ordered_search(swap ? Q : P, swap ? P : Q, call, PathEnds::corners, use);
     }
     template <class Use>
     static auto with_ordered_search(const PreparedP& first, const PreparedQ& second,
-                                    const Call& call, Use use) {
+                                    const Call& call, PathEnds ends, Use use) {
         const RangeScale range =
             plain_scale(std::max(first.checked.largest, second.checked.largest));
         if (range.is_identity()) {
-            return with_search_of(first, second, first.boxed, second.boxed, range, call, use);
+            return with_search_of(first, second, first.boxed, second.boxed, range, call, ends, use);
         }
         const BoxedCurve p(first.checked.curve, range, call.poller);
         const BoxedCurve q(second.checked.curve, range, call.poller);
-        return with_search_of(first, second, p, q, range, call, use);
+        return with_search_of(first, second, p, q, range, call, ends, use);
     }
 
     double operator()(const PreparedP& P, const PreparedQ& Q, const Call& call) const {
@@ -240,14 +241,15 @@ Matching frechet_continuous_path(const CurveView& P, const CurveView& Q,
 
 Matching frechet_continuous_part(const CurveView& P, const CurveView& Q,
                                  const FrechetContinuousOptions& options, Control* control) {
-    Matching found = pairwise::with_pair(
-        FrechetContinuousMeasure(options), P, Q, control,
-        [](const auto& p, const auto& q, const auto& call) {
-            return FrechetContinuousMeasure::with_ordered_search(p, q, call, [](auto& search) {
-                auto [distance, parameters] = search.part();
-                return Matching{distance, std::move(parameters)};
-            });
-        });
+    Matching found =
+        pairwise::with_pair(FrechetContinuousMeasure(options), P, Q, control,
+                            [](const auto& p, const auto& q, const auto& call) {
+                                return FrechetContinuousMeasure::with_ordered_search(
+                                    p, q, call, PathEnds::anywhere, [](auto& search) {
+                                        auto [distance, parameters] = search.part();
+                                        return Matching{distance, std::move(parameters)};
+                                    });
+                            });
     cut(found, P, Q);
     return found;
 }

@@ -158,6 +158,14 @@ class EdgeFamily {
         return part;
     }
 
+    // Whether a lower bound on an edge lies behind another.
+    bool is_behind(std::ptrdiff_t edge, Bound low, Bound other) const {
+        if (low.is_own_end() || other.is_own_end()) return !low.is_own_end();
+        place(low, roots_of(edge, low), -1);
+        place(other, roots_of(edge, other), -1);
+        return is_later(edge, low, other);
+    }
+
     // The ends of a part as parameters of its edge, rounded.
     std::pair<double, double> ends(std::ptrdiff_t edge, FreePart part) const noexcept {
         const auto end = [&](Bound& bound, double own_end, int side) {

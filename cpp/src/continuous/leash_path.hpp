@@ -121,16 +121,34 @@ class LeashPathTrace {
         return reversed();
     }
 
-    // Of a path that may begin and end at any point of the second curve.
+    // Of a path that begins and ends anywhere in the first and the last row.
     LeashPath part() {
         Runs start;
-        diagram_.start_anywhere(radius_, start);
+        diagram_.start(radius_, start);
         const Blocks blocks = blocks_from(std::move(start));
         const std::ptrdiff_t last = diagram_.rows() - 1;
         ScratchRows rows;
         walk(blocks.first, last, blocks.marks.back(), rows);
         note(static_cast<double>(last), nearest_end(last, rows.back()));
         trace(blocks);
+        return reversed();
+    }
+
+    // Of a path that begins at the first point of a run of the first row, and ends in the last row
+    // so many edges behind that point.
+    LeashPath around(const Run& section, std::ptrdiff_t turn) {
+        const FreePart rest{false, section.low, {}};
+        const double start = diagram_.second_edges().ends(section.first, rest).first;
+        const double begin = static_cast<double>(section.first) + start;
+        Runs runs;
+        runs.push_back(section);
+        const Blocks blocks = blocks_from(std::move(runs));
+        j_ = section.first + turn;
+        note(static_cast<double>(diagram_.rows() - 1), static_cast<double>(j_) + start);
+        trace(blocks);
+        // What rounding alone puts before the beginning is there.
+        for (auto& row : found_) row[1] = std::max(row[1], begin);
+        while (y_ > begin) note(0.0, std::max(std::ceil(y_) - 1.0, begin));
         return reversed();
     }
 

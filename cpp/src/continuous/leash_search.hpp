@@ -57,7 +57,8 @@ class LeashSearch {
    public:
     // The curves, and the same boxed and scaled. The first one gives the rows.
     LeashSearch(const CurveView& P, const CurveView& Q, const BoxedCurve& p, const BoxedCurve& q,
-                const RangeScale& range, Poller& poller, LeashMemory& memory)
+                const RangeScale& range, Poller& poller, LeashMemory& memory,
+                PathEnds ends = PathEnds::corners)
         : P_(P),
           Q_(Q),
           range_(range),
@@ -65,7 +66,7 @@ class LeashSearch {
           p_(p),
           q_(q),
           second_signs_(Q, P),
-          diagram_({p, q, ExactSigns(P, Q)}, {q, p, second_signs_}),
+          diagram_({p, q, ExactSigns(P, Q)}, {q, p, second_signs_}, ends),
           last_(p.size() - 1),
           runs_(memory.runs),
           next_(memory.next),
@@ -111,17 +112,47 @@ class LeashSearch {
         return {longest, std::move(matched)};
     }
 
-    // The matching of the first curve and the section of the second that is nearest to it.
+    // For paths that begin and end anywhere: the matching of the first curve and the section of the
+    // second that is nearest to it.
     std::pair<double, LeashPath> part() {
-        const auto holds = [&](double x) { return has_part_within(radius_of(x)); };
-        // No vertex of the first curve is farther from the second one.
-        const double square = NearestEdges<Dim>(q_, poller_).furthest(p_, {0.0, 0}).square;
-        const double distance = least_from(range_.restore(std::sqrt(square), 1), holds);
+        double distance =
+            least_through(least_of_row(NearestEdges<Dim>(q_, poller_).furthest(p_, {0.0, 0})));
+        if (is_astray()) {
+            distance = least_double(distance, std::numeric_limits<double>::infinity(), first_stride,
+                                    1, [&](double x) { return walks_through(radius_of(x)); });
+        }
+        return traced(distance, [](auto& trace) { return trace.part(); });
+    }
+    // The least double within which the first curve's vertex is of the second curve.
+    double least_of_row(const Furthest& vertex) const {
+        return least_double_near(range_.restore(std::sqrt(vertex.square), 1), [&](double x) {
+            std::ptrdiff_t near = 0;
+            return !diagram_.row_is_blocked(vertex.vertex, radius_of(x), near);
+        });
+    }
+    // The least double, not below `low`, with which a path leads through the diagram. If the search
+    // is astray, a double with which none does.
+    double least_through(double low) {
+        if (walks_through(radius_of(low))) return low;
+        const double found = narrow(low);
+        return is_astray() ? low : found;
+    }
+    // The matching that trace(LeashPathTrace) finds within a distance, and its largest distance.
+    template <class Trace>
+    std::pair<double, LeashPath> traced(double distance, Trace trace) {
         const Radius radius = radius_of(distance);
-        LeashPath matched = LeashPathTrace<Dim>(diagram_, radius, poller_).part();
+        LeashPathTrace<Dim> tracer(diagram_, radius, poller_);
+        LeashPath matched = trace(tracer);
         const double longest =
             LeashMeasure<Dim>(diagram_, radius, range_, poller_).longest_with_ends(matched);
         return {longest, std::move(matched)};
+    }
+    // In doubles, 2^-12 of a radius: for bisections above a lower bound.
+    static constexpr std::uint64_t first_stride = std::uint64_t{1} << 40;
+
+    const Diagram<Dim>& diagram() const noexcept { return diagram_; }
+    Radius radius_of(double distance, FreeSet set = FreeSet::closed) const noexcept {
+        return {distance, range_, p_.dim(), set};
     }
 
     // The real number rounded up; inf beyond the range of a double, and where it is above
@@ -182,6 +213,12 @@ class LeashSearch {
     // witnesses. Of no use where the search is astray.
     double value_above(double low) {
         if (is_within(low)) return low;  // and nothing below it holds the witnesses
+        return narrow(low);
+    }
+
+    // The least double with which a path leads through the diagram. None does with `low`, which is
+    // raised. Of no use where the search is astray.
+    double narrow(double& low) {
         double high = std::numeric_limits<double>::infinity();
         std::ptrdiff_t window = 16;
         for (const std::uint64_t tolerance : {std::uint64_t{1} << 42, std::uint64_t{1}}) {
@@ -209,10 +246,6 @@ class LeashSearch {
     // The number that is `tolerance` doubles below x, not below `low`.
     static double below(double x, std::uint64_t tolerance, double low) noexcept {
         return double_of(bits_of(x) - std::min(tolerance, bits_of(x) - bits_of(low)));
-    }
-
-    Radius radius_of(double distance, FreeSet set = FreeSet::closed) const noexcept {
-        return {distance, range_, p_.dim(), set};
     }
 
     // The vertices of either curve that are furthest from the other.
@@ -255,25 +288,7 @@ class LeashSearch {
     }
 
     double least_of_witnesses() const {
-        return least_from(guess_, [&](double x) { return !is_too_short(radius_of(x)); });
-    }
-    // The least double that holds, which is hardly below a guess.
-    template <class Holds>
-    static double least_from(double guess, Holds holds) {
-        if (holds(0.0)) return 0.0;
-        const double below = guess * (1.0 - 0x1p-50);
-        const double infinity = std::numeric_limits<double>::infinity();
-        return least_double(holds(below) ? 0.0 : below, infinity, 2, 1, holds);
-    }
-
-    // Whether a path leads from any free point of the first row to the last row.
-    bool has_part_within(const Radius& radius) {
-        diagram_.start_anywhere(radius, runs_);
-        for (std::ptrdiff_t i = 0; i < last_ && !runs_.empty(); ++i) {
-            poller_.spend(8 + 2 * diagram_.advance(i, runs_, radius, next_));
-            std::swap(runs_, next_);
-        }
-        return !runs_.empty();
+        return least_double_near(guess_, [&](double x) { return !is_too_short(radius_of(x)); });
     }
 
     // Advances runs_, the reachable runs of row `from`, to row `to`, or until the steps are `most`.
@@ -307,9 +322,18 @@ class LeashSearch {
         return {trail_.before(row - window), std::min(row + window, last_)};
     }
 
+    // The first row may begin elsewhere with another radius.
+    void resume(const Trail::Mark& mark, const Radius& radius) {
+        if (mark.row > 0) {
+            runs_ = mark.runs;
+        } else {
+            diagram_.start(radius, runs_);
+        }
+    }
+
     bool passes(const Stretch& stretch, double distance) {
         const Radius radius = radius_of(distance);
-        runs_ = stretch.mark.runs;
+        resume(stretch.mark, radius);
         return walk(stretch.mark.row, stretch.goal, radius, nullptr) == stretch.goal &&
                (stretch.goal < last_ || diagram_.is_through(runs_, radius));
     }
@@ -322,7 +346,7 @@ class LeashSearch {
         std::ptrdiff_t dead = trail_end_;
         for (;;) {
             const Stretch stretch = around(dead, window);
-            const double found = least_double(low, high, std::uint64_t{1} << 40, tolerance,
+            const double found = least_double(low, high, first_stride, tolerance,
                                               [&](double x) { return passes(stretch, x); });
             if (found == high) return high;
             const Stretch wider = around(dead, 8 * window);
@@ -332,7 +356,7 @@ class LeashSearch {
             }
             const Radius radius = radius_of(found);
             const std::ptrdiff_t from = stretch.mark.row;  // marks move when the trail grows
-            runs_ = stretch.mark.runs;
+            resume(stretch.mark, radius);
             trail_.forget_from(from + 1);
             trail_radius_ = none;
             const std::ptrdiff_t reached = walk(from, last_, radius, &trail_);

@@ -47,4 +47,13 @@ double least_double(double below, double most, std::uint64_t stride, std::uint64
     return double_of(high);
 }
 
+// The least double that holds, which is hardly below a guess.
+template <class Holds>
+double least_double_near(double guess, Holds holds) {
+    if (holds(0.0)) return 0.0;
+    const double below = guess * (1.0 - 0x1p-50);
+    const double infinity = std::numeric_limits<double>::infinity();
+    return least_double(holds(below) ? 0.0 : below, infinity, 2, 1, holds);
+}
+
 }  // namespace curvewise::continuous

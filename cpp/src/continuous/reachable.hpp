@@ -27,12 +27,16 @@ struct Run {
 };
 using Runs = runtime::ScratchVector<Run>;
 
+// Where paths begin and end: in the corners, or anywhere in the first and the last row.
+enum class PathEnds { corners, anywhere };
+
 template <int Dim>
 class Diagram {
    public:
     // Row i is compared with the edges of the second curve, column j with the edges of the first.
-    Diagram(const EdgeFamily<Dim>& first, const EdgeFamily<Dim>& second)
-        : columns_(first), rows_(second) {}
+    Diagram(const EdgeFamily<Dim>& first, const EdgeFamily<Dim>& second,
+            PathEnds ends = PathEnds::corners)
+        : columns_(first), rows_(second), ends_(ends) {}
 
     std::ptrdiff_t rows() const noexcept { return columns_.vertices(); }
     // The edges of the second curve; each is a cell of a row.
@@ -63,18 +67,13 @@ class Diagram {
     const EdgeFamily<Dim>& first_edges() const noexcept { return columns_; }
     const EdgeFamily<Dim>& second_edges() const noexcept { return rows_; }
 
-    // The reachable part of row 0, whose first corner is free.
+    // The reachable part of row 0, whose first corner is free if paths begin there.
     void start(const Radius& radius, Runs& runs) const {
         runs.clear();
+        if (ends_ == PathEnds::anywhere) return enter_from_left(-1, 0, cells() - 1, radius, runs);
         runs.push_back({0, 0, {}});
         runs[0].last = rows_.first_blocked_vertex(0, cells(), 0, radius) - 1;
         runs[0].last = std::min(runs[0].last, cells() - 1);
-    }
-
-    // All that is free in row 0, for paths that begin at any point of the second curve.
-    void start_anywhere(const Radius& radius, Runs& runs) const {
-        runs.clear();
-        enter_from_left(-1, 0, cells() - 1, radius, runs);
     }
 
     // Computes the reachable part of row i + 1 from that of row i. Returns the number of cells
@@ -102,6 +101,7 @@ class Diagram {
 
     // Whether a path that has reached the runs of the last row has reached its end.
     bool is_through(const Runs& last_row, const Radius& radius) const {
+        if (ends_ == PathEnds::anywhere) return !last_row.empty();
         return !last_row.empty() && last_row.back().last == cells() - 1 &&
                corner_is_free(rows() - 1, cells(), radius);
     }
@@ -165,6 +165,7 @@ class Diagram {
 
     EdgeFamily<Dim> columns_;  // the edges of the first curve
     EdgeFamily<Dim> rows_;     // the edges of the second
+    PathEnds ends_;
 };
 
 }  // namespace curvewise::continuous

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "curves/checks.hpp"
-#include "runtime/scratch.hpp"
+#include "curves/ring.hpp"
 #include "warping/closed_maximum.hpp"
 #include "warping/closed_walk.hpp"
 #include "warping/ground_distance.hpp"
@@ -19,7 +19,10 @@
 namespace curvewise {
 namespace {
 
+using curves::points_of_ring;
 using curves::RangeScale;
+using curves::RingPoints;
+using curves::Turns;
 using runtime::Poller;
 using warping::LeastMaximum;
 using warping::LeastMaximumSearch;
@@ -33,34 +36,11 @@ using warping::WalkSearch;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// How often a curve is gone around, and from which point.
-struct Turns {
-    std::ptrdiff_t count, begin;
-};
-
-// The curve's points without one that closes it, and the first one again.
-PackedCurve around(const curves::CheckedCurve& checked, std::ptrdiff_t points, const Turns& turns,
-                   const RangeScale& range, Poller& poller) {
-    const CurveView& curve = checked.curve;
-    const std::ptrdiff_t count = turns.count * points + 1;
-    runtime::ScratchVector<double> ring;
-    ring.reserve(static_cast<std::size_t>(count * curve.dim()));
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-        poller.poll_in_loop(static_cast<std::size_t>(i));
-        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
-            ring.push_back(curve((turns.begin + i) % points, c));
-        }
-    }
-    return PackedCurve::of(CurveView(ring.data(), count, curve.dim()), checked.on_sphere, range,
-                           PointOrder::forward, poller);
-}
-
-std::ptrdiff_t points_of_ring(const CurveView& curve) noexcept {
-    const std::ptrdiff_t n = curve.size();
-    for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
-        if (curve(0, c) != curve(n - 1, c)) return n;
-    }
-    return std::max<std::ptrdiff_t>(n - 1, 1);
+// The points of a closed curve on its way around, packed.
+PackedCurve around(const curves::CheckedCurve& checked, const Turns& turns, const RangeScale& range,
+                   Poller& poller) {
+    const RingPoints ring(checked.curve, turns, poller);
+    return PackedCurve::of(ring.view(), checked.on_sphere, range, PointOrder::forward, poller);
 }
 
 struct Found {
@@ -122,8 +102,8 @@ class ClosedPair {
         m_ = points_of_ring(Q);
         poller.begin(n_ * m_);
         range_ = warping::range_of(options.ground, std::max(p.largest, q.largest));
-        rows_.emplace(around(p, n_, {1, 0}, range_, poller));
-        columns_.emplace(around(q, m_, {2, 0}, range_, poller));
+        rows_.emplace(around(p, {1, 0}, range_, poller));
+        columns_.emplace(around(q, {2, 0}, range_, poller));
         cost_ = warping::canonical_cost(options.ground, {*rows_, *columns_});
         RowDistances first(*rows_, *columns_, options.ground, cost_);
         first.compute(0, 0, m_ - 1);
@@ -132,7 +112,7 @@ class ClosedPair {
             if (first[j] < first[nearest]) nearest = j;
         }
         begin_ = (nearest - m_ / 2 + m_) % m_;
-        columns_.emplace(around(q, m_, {2, begin_}, range_, poller));
+        columns_.emplace(around(q, {2, begin_}, range_, poller));
     }
 
     Alignment least_sum(bool with_path) {

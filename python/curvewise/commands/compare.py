@@ -62,7 +62,7 @@ def add_compare(commands: Any) -> None:
     command.add_argument(
         "--closed",
         action="store_true",
-        help="of area, frechet and dtw: compare loops, whose beginnings are free",
+        help="of area, dtw, frechet, frechet_continuous: compare loops, whose beginnings are free",
     )
     add_limits(command)
     command.add_argument("--json", action="store_true", help="print one JSON object")
@@ -99,8 +99,9 @@ def _options(
             options.setdefault(measure, {})[option] = value
     if not arguments.closed:
         return options
-    loops = ("area", *get_args(WarpingName))
-    chosen = loops if measures is None else [name for name in measures if name in loops]
+    by_default = ("area", *get_args(WarpingName))
+    loops = (*by_default, "frechet_continuous")
+    chosen = [name for name in measures or by_default if name in loops]
     if not chosen:
         raise ValueError(f"--closed applies to {', '.join(loops)}; add one to --measures")
     for measure in chosen:

@@ -188,8 +188,10 @@ def _along_path(measure: str, options: Mapping[str, Any], P: Array, Q: Array) ->
 
 
 def _along_matching(measure: str, options: Mapping[str, Any], P: Array, Q: Array) -> _Distances:
-    match = frechet_continuous_path(P, Q)  # whose options, workers and bounds, do not change it
-    ends = [points_at(curve, at) for curve, at in zip((P, Q), match.parameters.T, strict=True)]
+    match = frechet_continuous_path(P, Q, closed=bool(options.get("closed")))
+    assert match.curves is not None  # closed curves are those of the walks around them
+    sides = zip(match.curves, match.parameters.T, strict=True)
+    ends = [points_at(curve, at) for curve, at in sides]
     leashes = np.hypot.reduce(np.abs(ends[0] - ends[1]), axis=1)
     worst = int(leashes.argmax())
     mean = _mean_leash(leashes, *(np.diff(end, axis=0) for end in ends))

@@ -136,8 +136,8 @@ def cdist(
         "frechet_continuous", "hausdorff", "hausdorff_continuous", "erp", "edr", "lcss", "msm",
         "twe", "wdtw". Or a function of two curves that returns a float. A callable runs in this
         thread, holding the GIL, pair by pair: `workers` is ignored, and all pairs are computed.
-        `workers` is also ignored for dtw and frechet with ``closed=True`` or a callable `metric`. A
-        matrix as `metric` raises an error.
+        `workers` is also ignored for dtw, frechet and frechet_continuous with ``closed=True`` or a
+        callable `metric`. A matrix as `metric` raises an error.
     out : ndarray of float64, shape (k, l), C-contiguous, optional
         Array for the result.
     workers : int, default 1
@@ -341,7 +341,8 @@ _ELSEWHERE = {
 
 def _is_called_by_pairs(measure: Measure, options: Mapping[str, Any]) -> bool:
     """Return whether pairs are called from Python: callables and closed curves."""
-    is_walk = measure in get_args(WarpingName) and bool(options.get("closed"))
+    closable = (*get_args(WarpingName), "frechet_continuous")
+    is_walk = measure in closable and bool(options.get("closed"))
     return callable(measure) or callable(options.get("metric")) or is_walk
 
 
@@ -357,9 +358,13 @@ def _called_by_pairs(
         return partial(measure, **options)
     name = _check_names(measure, options)
     # Measures without user-defined metrics refuse it here, as they refuse curves.
-    of_pair = ("metric", "p", "radius", "closed") if name in get_args(WarpingName) else ()
+    is_warping = name in get_args(WarpingName)
+    of_pair = {"metric", "p", "radius", "closed"} if is_warping else set[str]()
+    if name == "frechet_continuous":
+        of_pair = {"closed"}
     check_batch(rows, columns, name, {o: v for o, v in options.items() if o not in of_pair})
-    return partial(MEASURES[name].function, **options, cutoff=limit)
+    of_function = options | {"cutoff": limit} if is_warping else options
+    return partial(MEASURES[name].function, **of_function)
 
 
 def _check_names(measure: Any, options: Mapping[str, Any]) -> str:

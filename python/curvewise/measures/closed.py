@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
+import numpy as np
+
 from .._core import closed_dtw, closed_dtw_path, closed_frechet, closed_frechet_path
-from ..curves.inputs import as_curves
+from ..curves.inputs import Array, as_curves
 from ..curves.named_curve import copied
 from .results import Alignment
 
-__all__ = ["closed_alignment", "closed_value"]
+__all__ = ["around", "closed_alignment", "closed_value"]
 
 Closable = Literal["dtw", "frechet"]
 _VALUES = {"dtw": closed_dtw, "frechet": closed_frechet}
@@ -31,3 +33,10 @@ def closed_alignment(measure: Closable, P: Any, Q: Any, ground: dict[str, Any]) 
     """Return the distance with the pairs of points that attain it."""
     A, B = as_curves(P, Q)
     return Alignment(*_PATHS[measure](A, B, ground), (copied(P, A), copied(Q, B)))
+
+
+def around(curve: Array, turns: int) -> Array:
+    """Return the points of a closed curve on its way around, and the first of them again."""
+    closes = len(curve) > 1 and np.array_equal(curve[0], curve[-1])
+    ring = curve[:-1] if closes else curve
+    return np.concatenate([ring] * turns + [ring[:1]])

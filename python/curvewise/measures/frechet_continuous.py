@@ -9,6 +9,11 @@ from __future__ import annotations
 import math
 from typing import Literal, SupportsFloat, SupportsIndex, overload
 
+from .._core import (
+    closed_frechet_continuous,
+    closed_frechet_continuous_bounds,
+    closed_frechet_continuous_path,
+)
 from .._core import frechet_continuous as compiled_frechet_continuous
 from .._core import frechet_continuous_bounds as compiled_frechet_continuous_bounds
 from .._core import frechet_continuous_part as compiled_frechet_continuous_part
@@ -16,7 +21,8 @@ from .._core import frechet_continuous_path as compiled_frechet_continuous_path
 from .._core import frechet_within as compiled_frechet_within
 from .._options import real_number
 from ..curves.inputs import CurveLike, as_curves
-from ..curves.named_curve import copied
+from ..curves.named_curve import copied, renamed
+from .closed import around
 from .results import Matching
 
 __all__ = [
@@ -34,22 +40,29 @@ def frechet_continuous(
     *,
     bounds: Literal[False] = False,
     workers: SupportsIndex = 1,
+    closed: bool = False,
 ) -> float: ...
 
 
 @overload
 def frechet_continuous(
-    P: CurveLike, Q: CurveLike, *, bounds: Literal[True], workers: SupportsIndex = 1
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    bounds: Literal[True],
+    workers: SupportsIndex = 1,
+    closed: bool = False,
 ) -> tuple[float, float]: ...
 
 
-# Shared text: workers
+# Shared text: workers, closed
 def frechet_continuous(
     P: CurveLike,
     Q: CurveLike,
     *,
     bounds: bool = False,
     workers: SupportsIndex = 1,
+    closed: bool = False,
 ) -> float | tuple[float, float]:
     """Compute the continuous Fréchet distance between two curves.
 
@@ -65,6 +78,8 @@ def frechet_continuous(
         Whether to return both ends of the interval that contains the distance.
     workers : int, default 1
         Number of threads: at least 1, or -1 for one per core. The result does not change.
+    closed : bool, default False
+        Whether both curves are closed, so that their first points do not matter. See Notes.
 
     Returns
     -------
@@ -89,23 +104,45 @@ def frechet_continuous(
     log(n + m)) for similar curves, about 60 n m steps at worst; memory O(n + m). One thread
     searches one pair, whatever `workers` is; :func:`cdist` and :func:`pdist` share pairs.
 
+    ``closed=True``: the last point of each curve is joined to its first one, unless they are equal.
+    Walks go once around both curves, and return to the points at which they began. The value is the
+    smallest over all beginnings, which may lie on edges. It is exact and symmetric too. A decision
+    is a walk from a free point of the first row to the point one turn behind it, in the diagram of
+    P and twice Q. Time about three times that of the open distance for similar curves, and 10 to 50
+    times if large parts of the diagram are free; memory O(n + m).
+
     Examples
     --------
     >>> import curvewise
     >>> curvewise.frechet_continuous([(0, 0), (10, 0)], [(0, 0), (7, 0), (3, 0), (10, 0)])
     2.0
+    >>> square, other = [(0, 0), (2, 0), (2, 2), (0, 2)], [(1, 0), (2, 0), (2, 2), (0, 2), (0, 0)]
+    >>> curvewise.frechet_continuous(square, other, closed=True)
+    0.0
     """
-    if not bounds:
+    if not (bounds or closed):
         return compiled_frechet_continuous(P, Q, (workers,))
-    return compiled_frechet_continuous_bounds(*as_curves(P, Q), {"workers": workers})
+    P, Q = as_curves(P, Q)
+    options = {"workers": workers}
+    if bounds:
+        both = closed_frechet_continuous_bounds if closed else compiled_frechet_continuous_bounds
+        return both(P, Q, options)
+    return closed_frechet_continuous(P, Q, options)
 
 
-def frechet_continuous_path(P: CurveLike, Q: CurveLike, *, workers: SupportsIndex = 1) -> Matching:
+# Signature: frechet_continuous without bounds
+def frechet_continuous_path(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    workers: SupportsIndex = 1,
+    closed: bool = False,
+) -> Matching:
     """Compute the continuous Fréchet distance with two walks that attain it.
 
     Parameters
     ----------
-    P, Q, workers
+    P, Q, workers, closed
         As for :func:`frechet_continuous`.
 
     Returns
@@ -115,6 +152,10 @@ def frechet_continuous_path(P: CurveLike, Q: CurveLike, *, workers: SupportsInde
         from (0, 0) to (n - 1, m - 1), neither ever decreasing. The pair distance never exceeds
         ``distance``. ``distance`` is :func:`frechet_continuous`, or above it by the few units in
         the last place that the rounding of the parameters requires.
+
+        For closed curves of n and m points, without a last one that equals the first, ``curves``
+        are P once around and Q twice. The parameters lead from (0, t) to (n, t + m). t is the point
+        of Q nearest to P[0] if that attains the distance.
 
     Raises
     ------
@@ -138,6 +179,9 @@ def frechet_continuous_path(P: CurveLike, Q: CurveLike, *, workers: SupportsInde
     [[0.0, 0.0], [0.5, 1.0], [1.0, 2.0]]
     """
     p, q = as_curves(P, Q)
+    if closed:
+        found = closed_frechet_continuous_path(p, q, {"workers": workers})
+        return Matching(*found, (renamed(P, around(p, 1)), renamed(Q, around(q, 2))))
     found = compiled_frechet_continuous_path(p, q, {"workers": workers})
     return Matching(*found, (copied(P, p), copied(Q, q)))
 
@@ -170,8 +214,8 @@ def frechet_continuous_part(P: CurveLike, Q: CurveLike, *, workers: SupportsInde
     -----
     Paths through the free-space diagram begin anywhere in its first row, and end anywhere in its
     last one (Alt & Godau, 1995). Exact: decisions that rounded arithmetic cannot make use integers.
-    Of several sections, one whose end is nearest to the end of P. Not symmetric. Time about 60
-    walks through the diagram, O(n m) each at worst; memory O(n + m) for the walks, and sqrt(n)
+    Of several sections, one whose end is nearest to the end of P. Not symmetric. Time a few walks
+    through the diagram, at worst about 60, O(n m) each; memory O(n + m) for the walks, and sqrt(n)
     times the separate parts of a row of the diagram.
 
     Examples

@@ -10,6 +10,10 @@ Nothing is rounded. All coordinates and r are integer multiples of one power of 
 an edge, times the square of its length, is a + s sqrt(c) with integers a and c, and s of -1, 0 or
 1. Two positions are compared by squaring. A value takes 63 decisions of time O(n m) each; memory
 O(n m).
+
+Closed curves are Q twice around against P once. If a path leads from some point of Q to the same
+point one turn later, one leads from the first such point. This is a vertex of Q, or a point where
+an edge of Q enters the reach of a vertex of P. A decision tries all of these: O(n² m²) at worst.
 """
 
 from __future__ import annotations
@@ -27,6 +31,7 @@ from .._options import real_number
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..measures.results import Matching
 from .checks import check_pair
+from .closed import without_repeated_end
 
 __all__ = [
     "frechet_continuous",
@@ -39,40 +44,45 @@ _Point: TypeAlias = list[int]
 
 
 @overload
-def frechet_continuous(P: CurveLike, Q: CurveLike, *, bounds: Literal[False] = False) -> float: ...
+def frechet_continuous(
+    P: CurveLike, Q: CurveLike, *, bounds: Literal[False] = False, closed: bool = False
+) -> float: ...
 
 
 @overload
 def frechet_continuous(
-    P: CurveLike, Q: CurveLike, *, bounds: bool
+    P: CurveLike, Q: CurveLike, *, bounds: bool, closed: bool = False
 ) -> float | tuple[float, float]: ...
 
 
 def frechet_continuous(
-    P: CurveLike, Q: CurveLike, *, bounds: bool = False
+    P: CurveLike, Q: CurveLike, *, bounds: bool = False, closed: bool = False
 ) -> float | tuple[float, float]:
     """63 decisions in whole numbers of any size, O(n m) each; memory O(n m)."""
     P, Q = check_pair(*as_curves(P, Q), "frechet_continuous")
-    value = _value(P, Q)
+    decide = _leads_around if closed else _is_long_enough
+    value = _least_double(lambda radius: decide(P, Q, radius))
     if not bounds:
         return value
-    if value == 0 or (math.isfinite(value) and not _is_long_enough(P, Q, value, strictly=True)):
+    if value == 0 or (math.isfinite(value) and not decide(P, Q, value, strictly=True)):
         return value, value
     return _double(_bits(value) - 1), value
 
 
-def frechet_continuous_path(P: CurveLike, Q: CurveLike) -> Matching:
+def frechet_continuous_path(P: CurveLike, Q: CurveLike, *, closed: bool = False) -> Matching:
     """From the end back, each cell is left by its lower side where it can have been entered there.
 
     The walks are others than those of the compiled library. Time and memory as for
     frechet_continuous.
     """
     P, Q = check_pair(*as_curves(P, Q), "frechet_continuous")
-    value = _value(P, Q)
-    parameters = np.array(_trace(_Diagram(*_with_edges(P, Q), value)))
-    parameters = np.minimum(parameters, (len(P) - 1, len(Q) - 1))
-    leashes = [_leash(_point(P, x), _point(Q, y)) for x, y in parameters.tolist()]
-    return Matching(max([value, *leashes]), parameters)
+    value = frechet_continuous(P, Q, closed=closed)
+    if not closed:
+        path = _trace(_Diagram(*_with_edges(P, Q), value))
+    else:
+        P, Q = _around(P, Q)
+        path = _trace(diagram := _Diagram(P, Q, value), _beginning(diagram))
+    return _measured(P, Q, value, path)
 
 
 def frechet_continuous_part(P: CurveLike, Q: CurveLike) -> Matching:
@@ -88,10 +98,7 @@ def frechet_continuous_part(P: CurveLike, Q: CurveLike) -> Matching:
         return _Diagram(*edges, radius, is_open=True).reached()[0][-1]
 
     value = _least_double(lambda radius: math.isinf(radius) or any(ends(radius)))
-    parameters = np.array(_trace(_Diagram(*edges, value, is_open=True)))
-    parameters = np.minimum(parameters, (len(P) - 1, len(Q) - 1))
-    leashes = [_leash(_point(P, x), _point(Q, y)) for x, y in parameters.tolist()]
-    return Matching(max([value, *leashes]), parameters)
+    return _measured(P, Q, value, _trace(_Diagram(*edges, value, is_open=True)))
 
 
 def frechet_within(
@@ -172,20 +179,24 @@ class _Diagram:
         high = min(_Position(length), _Position(middle, half))
         return (low, high) if low < high or (low <= high and not self.strictly) else None
 
-    def reached(self) -> tuple[list[list[_Part]], list[list[_Part]]]:
+    def reached(
+        self, start: tuple[int, _Position] | None = None
+    ) -> tuple[list[list[_Part]], list[list[_Part]]]:
         """Return the reachable parts of the lower and the left side of every cell.
 
         There is one more row of lower sides, and one more column of left sides, than there are
-        cells.
+        cells. If a position on an edge of Q is given, paths begin there.
         """
         p, q = self.P, self.Q
         n, m = len(p) - 1, len(q) - 1  # edges
         lower: list[list[_Part]] = [[None] * m for _ in range(n + 1)]
         left: list[list[_Part]] = [[None] * (m + 1) for _ in range(n)]
-        for j in range(m):  # along the sides of the diagram as far as all is free
-            if self.is_open or (self.is_free(0, j) and (j == 0 or lower[0][j - 1])):
-                lower[0][j] = self.free(q[j], q[j + 1], p[0])
-        for i in range(n):
+        first, low = start or (0, None)
+        for j in range(first, m):  # along the sides of the diagram as far as all is free
+            begins = self.is_open or j == (first if start else -1)
+            if begins or (self.is_free(0, j) and (j == 0 or lower[0][j - 1])):
+                lower[0][j] = self.free(q[j], q[j + 1], p[0], low if j == first else None)
+        for i in range(n if start is None else 0):
             if self.is_free(i, 0) and (i == 0 or left[i - 1][0]):
                 left[i][0] = self.free(p[i], p[i + 1], q[0])
         for i, j in product(range(n), range(m)):
@@ -198,8 +209,11 @@ class _Diagram:
         return lower, left
 
 
-def _value(P: Array, Q: Array) -> float:
-    return _least_double(lambda radius: _is_long_enough(P, Q, radius))
+def _measured(P: Array, Q: Array, value: float, path: list[tuple[float, float]]) -> Matching:
+    """Return a matching of that value, or of what its rounded parameters come to."""
+    parameters = np.minimum(np.array(path), (len(P) - 1, len(Q) - 1))
+    leashes = [_leash(_point(P, x), _point(Q, y)) for x, y in parameters.tolist()]
+    return Matching(max([value, *leashes]), parameters)
 
 
 def _with_edges(P: Array, Q: Array) -> tuple[Array, Array]:
@@ -219,15 +233,52 @@ def _is_long_enough(P: Array, Q: Array, radius: float, *, strictly: bool = False
     return diagram.reached()[0][n][m - 1] is not None
 
 
-def _trace(diagram: _Diagram) -> list[tuple[float, float]]:
-    """Return the parameters of a path from corner to corner, or from row to row."""
-    lower, left = diagram.reached()
+def _around(P: Array, Q: Array) -> tuple[Array, Array]:
+    """Return P once around and Q twice, each with its first point at the end."""
+    P, Q = without_repeated_end(P), without_repeated_end(Q)
+    return np.concatenate([P, P[:1]]), np.concatenate([Q, Q, Q[:1]])
+
+
+def _leads_around(P: Array, Q: Array, radius: float, *, strictly: bool = False) -> bool:
+    """Return whether a path goes once around both closed curves and returns to where it began."""
+    if math.isinf(radius):
+        return True
+    return _beginning(_Diagram(*_around(P, Q), radius, strictly)) is not None
+
+
+def _beginning(diagram: _Diagram) -> tuple[int, _Position] | None:
+    """Return the edge of Q, and the first place on it, where a path around begins."""
+    turn = (len(diagram.Q) - 1) // 2
+    for j in range(turn):
+        edge = diagram.Q[j], diagram.Q[j + 1]
+        free = diagram.free(*edge, diagram.P[0])
+        if free is None:
+            continue
+        entered = (diagram.free(*edge, z, free[0]) for z in diagram.P)
+        for low in {(part[0].a, part[0].c): part[0] for part in entered if part}.values():
+            if diagram.free(*edge, diagram.P[0], low) is None:
+                continue
+            again = diagram.reached((j, low))[0][-1][j + turn]
+            if again and again[0] <= low:
+                return j, low
+    return None
+
+
+def _trace(
+    diagram: _Diagram, start: tuple[int, _Position] | None = None
+) -> list[tuple[float, float]]:
+    """Return the parameters of a path from corner to corner, from row to row, or around."""
+    lower, left = diagram.reached(start)
     p, q = diagram.P, diagram.Q
     i, j = len(left) - 1, len(lower[0]) - 1  # the cell that the path leaves
-    x, y = i + 1.0, j + 1.0
+    x, y, begin = i + 1.0, j + 1.0, 0.0
     if diagram.is_open:
         j, (end, _) = next((k, part) for k, part in enumerate(lower[-1]) if part)
         y = j + end.fraction(q[j], q[j + 1])
+    if start is not None:
+        begin = start[0] + start[1].fraction(q[start[0]], q[start[0] + 1])
+        j = start[0] + len(lower[0]) // 2
+        y = begin + len(lower[0]) // 2
     path = [(x, y)]
     while i >= 0 and j >= 0:
         below, beside = lower[i][j], left[i][j]
@@ -241,7 +292,8 @@ def _trace(diagram: _Diagram) -> list[tuple[float, float]]:
         path.append((x, y))
     # Along a side of the diagram.
     if not diagram.is_open:
-        path += [(0.0, float(k)) for k in range(math.ceil(y) - 1, -1, -1) if x == 0]
+        back = range(math.ceil(y) - 1, math.floor(begin) - 1, -1) if x == 0 else ()
+        path += [(0.0, max(float(k), begin)) for k in back]
     path += [(float(k), 0.0) for k in range(math.ceil(x) - 1, -1, -1) if x > 0]
     return path[::-1]
 

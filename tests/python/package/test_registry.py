@@ -221,8 +221,10 @@ def test_the_stub_has_what_the_module_has() -> None:
     functions = [node for node in stub.body if isinstance(node, ast.FunctionDef)]
     with_options = {node.name for node in functions if takes_a_pair_and_options(node)}
     bounds = {"frechet_continuous_bounds"}  # in Python an option of frechet_continuous
-    # Options of dtw, frechet and their paths.
-    closed = {f"closed_{name}" for name in ("dtw", "dtw_path", "frechet", "frechet_path")}
+    # Options of these and their paths.
+    closable = ("dtw", "frechet", "frechet_continuous")
+    closed = {f"closed_{name}{end}" for name in closable for end in ("", "_path")}
+    closed |= {f"closed_{name}" for name in bounds}
     takes_options = {name for name in measures.__all__ if measure_of(name)} - {"frechet_within"}
     others = bounds | closed | {"soft_dtw", "lb_improved", "lb_keogh", "lb_kim"}
     assert with_options == (takes_options | others) - MEASURES.keys()
