@@ -97,8 +97,6 @@ void random_curves_from_many_places() {
     }
 }
 
-// The reach of one vertex lets walks begin, and that of another lets them end, on one edge: the
-// value is where both meet.
 void values_by_hand() {
     const Curve square{{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}};
     const Curve on_edge{{1.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}, {0.0, 0.0}};
@@ -109,6 +107,10 @@ void values_by_hand() {
     CHECK_EQUAL(closed_frechet_continuous_bounds(square, Curve{{1.0, 1.0}}).low,
                 1.4142135623730949);
     CHECK_EQUAL(closed_frechet_continuous(Curve{{0.0}, {2.0}}, Curve{{0.5}, {3.0}}), 1.0);
+    // The first point that is reached again lies behind the beginning, on the same edge.
+    const Curve P{{-0.7, -2.0}, {1.6, 1.9}, {-1.6, 1.1}}, Q{{-0.3, -0.8}, {0.6, 1.7}, {1.2, -0.9}};
+    CHECK_EQUAL(closed_frechet_continuous(P, Q), 2.2785763345474193);
+    CHECK_EQUAL(closed_frechet_continuous(Q, P), 2.2785763345474193);
     CHECK_EQUAL(closed_frechet_continuous(Curve{{1.7e308}}, Curve{{-1.7e308}}), infinity);
     CHECK_EQUAL(closed_frechet_continuous_path(square, on_edge).parameters.front()[1], 4.0);
     CHECK_THROWS(closed_frechet_continuous(square, Curve{{1.0}}), std::invalid_argument,

@@ -92,7 +92,7 @@ def test_loops_may_begin_elsewhere(run, compared, files):
     polygon = ("--closed", "--crossing", "polygon", "--preset", "raw")
     assert compared(*files, *polygon, "--measures", "area")["values"]["area"] == 0.0
     of_pcm = ("--closed", "--measures", "pcm")
-    assert_failed(run("compare", *files, *of_pcm), "--closed applies to area, dtw, frechet; add")
+    assert_failed(run("compare", *files, *of_pcm), "--closed applies to area, dtw, frechet, ")
     given = ("--closed", "--window", "3")
     assert_failed(run("compare", *files, *given), "closed=True has no window; leave out window=3")
 

@@ -127,6 +127,10 @@ def test_closed_forms() -> None:
     assert distance(SQUARE, SQUARE + np.array([0.25, 0.0])) == 0.25
     assert distance([0.0, 2.0], [0.5, 3.0]) == 1
     assert distance([1.0], [3.0]) == 2
+    # The first point that is reached again lies behind the beginning, on the same edge.
+    P, Q = [(-0.7, -2.0), (1.6, 1.9), (-1.6, 1.1)], [(-0.3, -0.8), (0.6, 1.7), (1.2, -0.9)]
+    assert distance(P, Q) == distance(Q, P) == 2.2785763345474193
+    assert reference.frechet_continuous(P, Q, closed=True) == 2.2785763345474193
     # Twice around is not once around.
     twice = np.concatenate([SQUARE, SQUARE])
     assert distance(twice, np.roll(twice, 3, axis=0)) == 0
