@@ -29,8 +29,8 @@ bounds = {
     "yield": (200.0, 400.0),
     "Q": (0.0, 100.0),
     "b": Log(0.5, 30.0),
-    "C1": (1e4, 1e5),
-    "gamma1": (50.0, 500.0),
+    "C1": Log(1e4, 1e5),
+    "gamma1": Log(50.0, 500.0),
 }
 model = steel.driven_by(test, control="stress")
 found = identify(model, test, bounds, measure="area", progress=False)
