@@ -30,7 +30,8 @@ _ELSEWHERE = {
 # What to write for options of other packages, and of papers, that no measure has.
 _WITHOUT_OPTION = {
     "derivative": "give slopes: curvewise.curves.derivative(curve) for each curve",
-    "dependent": "for independent coordinates, add {measure}(P[:, c], Q[:, c]) over all c",
+    "dependent": "dtw, and cdist and pdist of dtw, have it; else add {measure}(P[:, c], Q[:, c]) "
+    "over all c",
     "globalconstraint": "give window=, or step_pattern='typeIIIc' for Itakura's slopes",
     "itakuramaxslope": "step_pattern='typeIIIc' of dtw has Itakura's slopes",
     "timestamps": "points are one unit of time apart",

@@ -41,6 +41,7 @@ __all__ = [
     "Window",
     "check_choice",
     "check_closed",
+    "check_independent",
     "check_window",
     "real_number",
     "whole_number",
@@ -137,7 +138,19 @@ def check_choice(option: str, value: object, choices: Collection[str]) -> None:
         )
 
 
-_OF_CLOSED = {"P", "Q", "metric", "p", "radius", "workers", "prune", "cutoff", "missing", "closed"}
+_OF_CLOSED = {
+    "P",
+    "Q",
+    "metric",
+    "p",
+    "radius",
+    "workers",
+    "prune",
+    "cutoff",
+    "missing",
+    "closed",
+    "dependent",
+}
 
 
 def check_closed(given: Mapping[str, object]) -> None:
@@ -152,6 +165,16 @@ def check_closed(given: Mapping[str, object]) -> None:
         value, default = given[option], _DEFAULTS[option]
         if value is not default and value != default:
             raise ValueError(f"closed=True has no {option}; leave out {option}={value!r}")
+
+
+def check_independent(metric: object) -> None:
+    """Refuse distances of whole points, which coordinates do not have alone."""
+    if not isinstance(metric, str) or metric == "haversine":
+        kind = f"metric={metric!r}" if isinstance(metric, str) else "a user-defined metric"
+        raise ValueError(
+            f"dependent=False compares each coordinate alone, unlike {kind}; give the name of "
+            "another metric, such as 'euclidean'"
+        )
 
 
 def real_number(option: str, value: Any, least: float, advice: str) -> float:

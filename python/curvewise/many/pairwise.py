@@ -316,7 +316,7 @@ def pdist(
     if _is_called_by_pairs(measure, options):
         function = _called_by_pairs(measure, options, limit, curves, None)
         if not callable(measure):
-            apart = ("metric", "closed") if callable(options.get("metric")) else ("closed",)
+            apart = {"closed", "dependent"} | {o for o in options if callable(options[o])}
             _check_symmetric(measure, {o: v for o, v in options.items() if o not in apart})
         points = (len(curves) - 1) * _points(curves)
         _fill(values, combinations(curves, 2), points, function, limit, progress)
@@ -339,10 +339,18 @@ _ELSEWHERE = {
 }
 
 
+# Options of measures that only their functions of one pair have.
+_OF_PYTHON = {
+    "dtw": {"closed", "dependent"},
+    "frechet": {"closed"},
+    "frechet_continuous": {"closed"},
+}
+
+
 def _is_called_by_pairs(measure: Measure, options: Mapping[str, Any]) -> bool:
-    """Return whether pairs are called from Python: callables and closed curves."""
-    closable = (*get_args(WarpingName), "frechet_continuous")
-    is_walk = measure in closable and bool(options.get("closed"))
+    """Return whether pairs are called from Python."""
+    asked = bool(options.get("closed")) or not options.get("dependent", True)
+    is_walk = asked and measure in _OF_PYTHON
     return callable(measure) or callable(options.get("metric")) or is_walk
 
 
@@ -359,9 +367,9 @@ def _called_by_pairs(
     name = _check_names(measure, options)
     # Measures without user-defined metrics refuse it here, as they refuse curves.
     is_warping = name in get_args(WarpingName)
-    of_pair = {"metric", "p", "radius", "closed"} if is_warping else set[str]()
-    if name == "frechet_continuous":
-        of_pair = {"closed"}
+    of_pair = _OF_PYTHON.get(name, set())
+    if is_warping:
+        of_pair = of_pair | {"metric", "p", "radius"}
     check_batch(rows, columns, name, {o: v for o, v in options.items() if o not in of_pair})
     of_function = options | {"cutoff": limit} if is_warping else options
     return partial(MEASURES[name].function, **of_function)

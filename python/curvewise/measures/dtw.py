@@ -16,6 +16,7 @@ from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.missing import skip_in_pair
 from ..curves.named_curve import copied
 from .closed import closed_alignment, closed_value
+from .independent import sum_over_coordinates
 from .results import Alignment, WarpingInfo
 from .step_pattern import Steps
 
@@ -42,6 +43,7 @@ def dtw(
     cutoff: SupportsFloat | None = None,
     missing: Missing = "refuse",
     closed: bool = False,
+    dependent: bool = True,
 ) -> float:
     """Compute dynamic time warping between two curves.
 
@@ -99,6 +101,10 @@ def dtw(
         Whether points with a nan raise an error, or are skipped with a warning of how many.
     closed : bool, default False
         Whether both curves are closed, so that their first points do not matter. See Notes.
+    dependent : bool, default True
+        Whether one path matches all coordinates. If False, each coordinate has a path of its own,
+        and the value is the sum over the coordinates. A `metric` must be named, and not
+        "haversine".
 
     Returns
     -------
@@ -183,6 +189,8 @@ def dtw(
     """
     if missing != "refuse":
         P, Q = skip_in_pair(P, Q, missing)
+    if not dependent:
+        return sum_over_coordinates(dtw, locals())
     if closed:
         check_closed(locals())
         return closed_value("dtw", P, Q, {"metric": metric, "p": p, "radius": radius}, cutoff)
@@ -204,7 +212,7 @@ def dtw(
     return compiled_dtw(P, Q, options)
 
 
-# Signature: dtw without normalize, cutoff, missing, closed
+# Signature: dtw without normalize, cutoff, missing, closed, dependent
 def dtw_info(
     P: CurveLike,
     Q: CurveLike,
@@ -272,7 +280,7 @@ def dtw_info(
 
 
 # Shared text: closed
-# Signature: dtw without normalize, cutoff, missing
+# Signature: dtw without normalize, cutoff, missing, dependent
 def dtw_path(
     P: CurveLike,
     Q: CurveLike,
@@ -349,7 +357,7 @@ def dtw_path(
     return Alignment(*compiled_dtw_path(A, B, options), (copied(P, A), copied(Q, B)))
 
 
-# Signature: dtw without normalize, workers, prune, cutoff, missing, closed
+# Signature: dtw without normalize, workers, prune, cutoff, missing, closed, dependent
 def dtw_table(
     P: CurveLike,
     Q: CurveLike,

@@ -26,6 +26,7 @@ from .._options import (
     Relax,
     Window,
     check_closed,
+    check_independent,
     check_window,
     real_number,
     whole_number,
@@ -60,12 +61,15 @@ def dtw(
     relax: Relax = None,
     normalize: bool = False,
     closed: bool = False,
+    dependent: bool = True,
 ) -> float:
     """Time and memory O(n m).
 
     Step patterns: Sakoe & Chiba (1978); open ends: Müller, "Information Retrieval for Music and
     Motion" (2007), chapter 4. Closed curves: a table for each point at which Q may begin, O(n m²).
     """
+    if not dependent:
+        return _sum_over_coordinates(**locals())
     if closed:
         check_closed(locals())
         return closed_dtw(P, Q, metric, p, radius).distance
@@ -78,7 +82,19 @@ def dtw(
     return distance / {"N": n, "M": m, "N+M": n + m}[steps.per] if normalize else distance
 
 
-# Signature: dtw without normalize, workers, prune, cutoff, missing
+def _sum_over_coordinates(
+    P: CurveLike, Q: CurveLike, metric: Any, dependent: bool, **options: Any
+) -> float:
+    """Return the sum of dtw of each coordinate alone, in their order."""
+    check_independent(metric)
+    P, Q = check_pair(*as_curves(P, Q), "dtw")
+    return sum(
+        dtw(P[:, [c]], Q[:, [c]], metric=metric, dependent=not dependent, **options)
+        for c in range(P.shape[1])
+    )
+
+
+# Signature: dtw without normalize, workers, prune, cutoff, missing, dependent
 def dtw_path(
     P: CurveLike,
     Q: CurveLike,
@@ -111,7 +127,7 @@ def dtw_path(
     return Alignment(distance, traced_path(c, table.end[1], is_diagonal, open_begin=open_begin))
 
 
-# Signature: dtw without normalize, workers, prune, cutoff, missing, closed
+# Signature: dtw without normalize, workers, prune, cutoff, missing, closed, dependent
 def dtw_table(
     P: CurveLike,
     Q: CurveLike,

@@ -147,8 +147,9 @@ def test_errors(message, call, error):
     ("call", "advice"),
     [
         (
-            lambda: cdist([GOOD], dependent=False),
-            "prune; for independent coordinates, add dtw(P[:, c], Q[:, c]) over all c",
+            lambda: Prepared(GOOD, dependent=False),
+            "prune; dtw, and cdist and pdist of dtw, have it; else add dtw(P[:, c], Q[:, c]) over "
+            "all c",
         ),
         (
             lambda: Prepared(GOOD, "frechet", weights=[1.0, 2.0]),

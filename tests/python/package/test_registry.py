@@ -56,7 +56,7 @@ OWN_DEFAULTS = {
 # The reference computes the plain table, in one thread.
 NOT_OF_THE_REFERENCE = ("workers", "prune", "cutoff", "missing")
 # What Python does before the compiled library sees a curve.
-OF_PYTHON = ("missing", "closed")
+OF_PYTHON = ("missing", "closed", "dependent")
 
 
 def keyword_defaults(function: Any) -> dict[str, Any]:
