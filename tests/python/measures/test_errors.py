@@ -188,7 +188,7 @@ def unknown(option: str, choices: str, valid: str) -> Iterator[tuple[str, Case]]
 def option_cases(function: str) -> Iterator[tuple[str, Case]]:
     if function.startswith("area"):
         yield from unknown("spacing", "distance, x, arc_length, matched, function", "x")
-        yield from unknown("crossing", "rearrange, split", "split")
+        yield from unknown("crossing", "rearrange, split, polygon", "split")
     if function.startswith("pcm"):
         for offsets in (0, -1, 1.5, 2.0, True, None, "foo", "200", [200]):
             message = f"offsets is {offsets!r}; give a whole number >= 1, or 'continuous'"
