@@ -108,7 +108,7 @@ def frechet_continuous(
     Walks go once around both curves, and return to the points at which they began. The value is the
     smallest over all beginnings, which may lie on edges. It is exact and symmetric too. A decision
     is a walk from a free point of the first row to the point one turn behind it, in the diagram of
-    P and twice Q. Time about three times that of the open distance for similar curves, and 10 to 50
+    P and twice Q. Time about three times that of the open distance for similar curves, and 10 to 60
     times if large parts of the diagram are free; memory O(n + m).
 
     Examples
