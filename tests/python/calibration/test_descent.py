@@ -173,8 +173,8 @@ def runs_of(ledger: Any) -> Runs:
     return Runs(ledger, CurveSearch(ledger.objective, RULES.gain, ledger.show_activity))
 
 
-def descent(runs: Runs, rules: Rules = RULES, *, is_independent: bool = False) -> Descent:
-    return Descent(np.random.default_rng(1), rules, runs, is_independent=is_independent)
+def descent(runs: Runs, rules: Rules = RULES, **whose: bool) -> Descent:
+    return Descent(np.random.default_rng(1), rules, runs, **{"is_independent": False, **whose})
 
 
 def test_a_start_that_comes_to_where_another_was_takes_few_runs_of_its_own():
@@ -189,18 +189,22 @@ def test_a_start_that_comes_to_where_another_was_takes_few_runs_of_its_own():
 
 
 @pytest.mark.parametrize("is_independent", [True, False])
-def test_what_others_have_found_far_away_does_not_lead_an_independent_start(is_independent):
+@pytest.mark.parametrize("is_shared", [True, False])
+def test_what_others_have_found_far_away_does_not_lead_an_independent_start(
+    is_independent, is_shared
+):
     """If it did, starts would agree wherever the first of them has ended."""
     start = np.array([0.8, 0.3])
     alone, beside = Known(), Known()
     runs = [runs_of(alone), runs_of(beside)]
     beside.drive(descent(runs[1]).course(TRUE))
     known = len(beside.asked)
-    parts = [descent(r, is_independent=is_independent).course(start) for r in runs]
+    whose = {"is_independent": is_independent, "is_shared": is_shared}
+    parts = [descent(r, **whose).course(start) for r in runs]
     for ledger, part in zip((alone, beside), parts, strict=True):
         ledger.drive(part)
     first, second = np.array(alone.asked), np.array(beside.asked[known:])
-    assert np.array_equal(first[:5], second[:5]) == is_independent
+    assert np.array_equal(first[:5], second[:5]) == (is_independent and not is_shared)
 
 
 def test_runs_of_an_earlier_search_take_the_place_of_the_first_simplex():

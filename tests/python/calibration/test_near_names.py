@@ -94,7 +94,7 @@ def test_names_elsewhere(function, keywords, message):
 
 
 def test_nothing_is_offered_where_nothing_is_near():
-    with pytest.raises(TypeError, match=r"it has spacing, crossing, squared, missing$"):
+    with pytest.raises(TypeError, match=r"it has spacing, crossing, squared, closed, missing$"):
         Objective(EXPERIMENT, "area", wibble=1)
 
 

@@ -213,10 +213,13 @@ class Listed:
     """Replaces a descent: ends at listed values, at different places."""
 
     values: list[float]
-    begun: list[tuple[Any, bool]]
+    begun: list[tuple[Any, bool, bool]]
+    made = 20
 
-    def __init__(self, random: Any, rules: Any, runs: Any, *, is_independent: bool) -> None:
-        self.begun.append((rules, is_independent))
+    def __init__(
+        self, random: Any, rules: Any, runs: Any, *, is_independent: bool, is_shared: bool
+    ) -> None:
+        self.begun.append((rules, is_independent, is_shared))
         self.is_independent = is_independent
 
     def course(self, start: Any) -> Part[End]:
@@ -226,6 +229,7 @@ class Listed:
 
 
 @pytest.mark.parametrize("at_once", [1, 3])
+@pytest.mark.parametrize("limit", [120, 119])
 @pytest.mark.parametrize(
     ("values", "count", "alike"),
     [
@@ -235,13 +239,16 @@ class Listed:
         ([5.0] * 30, 30, 17),  # flat ground
     ],
 )
-def test_starts_that_disagree_are_followed_by_others(values, count, alike, at_once, monkeypatch):
+def test_starts_that_disagree_are_followed_by_others(
+    values, count, alike, limit, at_once, monkeypatch
+):
     monkeypatch.setattr("curvewise.calibration.methods.multistart.Descent", Listed)
     monkeypatch.setattr(GlobalStage, "wide", lambda stage: (np.full(2, 0.7), 1.0))
     Listed.values, Listed.begun = list(values), []
     run = SimpleNamespace(failed=False, value=9.0, simulations=(np.zeros((2, 2)),))
     ledger: Any = SimpleNamespace(
         dimensions=2,
+        limit=limit,
         has_slopes=False,
         negligible=0.0,
         earlier_runs=[(np.zeros(2), run)],
@@ -253,12 +260,17 @@ def test_starts_that_disagree_are_followed_by_others(values, count, alike, at_on
     assert max(map(len, asked)) == at_once * 2  # coordinates
     if at_once == 1:
         assert len(Listed.begun) == count
-        assert f"{alike} of {sum(own for _, own in Listed.begun)} starts" in finish.message
+        assert f"{alike} of {sum(own for _, own, _ in Listed.begun)} starts" in finish.message
     # The first in a separate region; those that begin where the surrogate predicts a gain do not
     # count.
-    assert [own for _, own in Listed.begun[:6]] == [True, True, True, True, False, True][:count]
-    radii = [rules.first_radius for rules, _ in Listed.begun[:5]]
+    independent = [own for _, own, _ in Listed.begun[:6]]
+    assert independent == [True, True, True, True, False, True][:count]
+    radii = [rules.first_radius for rules, _, _ in Listed.begun[:5]]
     assert radii == [0.5, 0.25, 0.25, 0.25, 0.25][: len(radii)]
+    # Three starts of 20 runs, and as many that depend on them, fit into 120 runs. Otherwise the
+    # starts share their runs once the first has shown this.
+    shared = [shared for _, _, shared in Listed.begun]
+    assert shared == [False] * at_once + [limit < 120] * (len(shared) - at_once)
 
 
 class Slow(Descent):

@@ -78,19 +78,26 @@ def simplex_around(centre: Array, step: float, random: np.random.Generator) -> A
 class Descent:
     """The best run of one start, and the region around it in which surrogates are trusted.
 
-    The start is independent if it owes nothing to others: neither its place, nor, if the objective
-    has kinks, its surrogates.
+    The start is independent if its place does not depend on others. If the objective has kinks, its
+    surrogates do not use their runs either, unless all starts are shared.
     """
 
     def __init__(
-        self, random: np.random.Generator, rules: Rules, runs: Runs, *, is_independent: bool
+        self,
+        random: np.random.Generator,
+        rules: Rules,
+        runs: Runs,
+        *,
+        is_independent: bool,
+        is_shared: bool = False,
     ) -> None:
         self._random, self._rules, self._runs = random, rules, runs
         self._stage = GlobalStage(runs, random)
         self._is_independent = is_independent
         # The runs that it has made, and those of earlier searches; None if it uses all runs.
-        uses_all = runs.inner.is_smooth or not is_independent
+        uses_all = is_shared or runs.inner.is_smooth or not is_independent
         self._own = None if uses_all else set(range(runs.earlier))
+        self.made = 0  # runs
         self._best: int | None = None
         self._last = np.inf
         self._sides = np.ones(runs.points.shape[1])  # of the region, in each direction
@@ -229,6 +236,7 @@ class Descent:
         """Run points, and move to the best of them if it is better than all before."""
         self._last = np.inf
         self._tried.update(tuple(point) for point in points)
+        self.made += len(points)
         for point, run in zip(points, (yield points), strict=True):
             number = self._runs.add(point, run)
             if number is not None:

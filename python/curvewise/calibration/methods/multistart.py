@@ -4,6 +4,7 @@ Starts run one after the other with one worker, and three in parallel with sever
 is the middle of the bounds. The others are Latin hypercube samples of four points. After the first
 starts, every second one begins where the surrogate through the best runs is lowest
 (`global_stage`). It takes few runs, but depends on the others, so its agreement does not count.
+If starts take so many runs that too few of them fit into the limit, later ones use all runs.
 
 M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
 input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245.
@@ -62,6 +63,7 @@ class Multistart:
         self._places = places(ledger.dimensions, random)
         self._stage = GlobalStage(runs, random)
         self._begun = self._running = 0
+        self._is_shared = False
         self._ends: list[End] = []
 
     def course(self, start: Array | None) -> Part[Finish]:
@@ -104,14 +106,18 @@ class Multistart:
         random = np.random.default_rng((self._seed, self._begun))
         self._begun += 1
         self._running += 1
-        descent = Descent(random, rules, self._runs, is_independent=is_independent)
-        return self._ended(descent.course(place))
+        descent = Descent(
+            random, rules, self._runs, is_independent=is_independent, is_shared=self._is_shared
+        )
+        return self._ended(descent, place)
 
-    def _ended(self, course: Part[End | None]) -> Part[None]:
-        end = yield from course
+    def _ended(self, descent: Descent, place: Array) -> Part[None]:
+        end = yield from descent.course(place)
         self._running -= 1
         if end is not None:
             self._ends.append(end)
+            needed = 2 * self._starts * descent.made  # every second start is independent
+            self._is_shared |= needed > self._ledger.limit
 
 
 def side_by_side(
