@@ -117,6 +117,8 @@ def _checks() -> Iterator[tuple[MeasureInfo, dict[str, Any]]]:
         free = {option: listed[option] for option in defaults if option in listed}
         for values in product(*free.values()):
             options = dict(zip(free, values, strict=True))
+            if options.get("crossing") == "polygon" and options["spacing"] != "distance":
+                continue  # spacing does not act, and the reference is slow
             if not _is_slow(MEASURES[name], options) or options.get("metric") in _OF_THE_SLOW:
                 yield MEASURES[name], options
         for more, metric in product(_MORE.get(name, ()), listed["metric"]):
@@ -146,6 +148,8 @@ def _arguments(options: dict[str, Any]) -> dict[str, Any]:
         more = {"p": 3.0}
     elif options.get("metric") == "haversine" and "epsilon" in options:
         more = {"epsilon": options["epsilon"] or 2e5}  # of points that are some degrees apart
+    elif options.get("crossing") == "polygon":
+        more = {"closed": True}
     return {**options, **more}
 
 

@@ -40,6 +40,12 @@ def test_a_level_with_the_bits_of_one_that_was_confirmed_needs_no_reference(
     assert kernel_check._check_active_level(io.StringIO(), known) == known
 
 
+def test_every_check_is_of_options_that_the_measure_accepts() -> None:
+    P, Q = [[0.0, 0.0], [1.0, 2.0], [3.0, 1.0]], [[0.0, 1.0], [2.0, 2.0], [3.0, 0.0]]
+    for info, options in kernel_check._checks():
+        info.function(P, Q, **kernel_check._arguments(options))
+
+
 def test_a_wrong_bit_is_found(one_check: None, monkeypatch) -> None:
     known = kernel_check._check_active_level(io.StringIO(), {})
     break_one_bit(monkeypatch)
