@@ -80,7 +80,7 @@ void single_calls() {
     hears("area, matched", [&](Control* control) { return area(P, Q, matched, control); });
     for (const Crossing crossing : {Crossing::split, Crossing::polygon}) {
         const AreaOptions closed{Spacing::distance, crossing, false, true};
-        hears("area, closed", [&](Control* control) { return area(few, Q, closed, control); });
+        hears("area, closed", [&](Control* control) { return area(P, few, closed, control); });
     }
     hears("area by arc length",
           [&](Control* control) { return area(P, Q, by_arc_length, control); });
