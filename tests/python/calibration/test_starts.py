@@ -214,7 +214,7 @@ class Listed:
 
     values: list[float]
     begun: list[tuple[Any, bool, bool]]
-    made = 20
+    made: int
 
     def __init__(
         self, random: Any, rules: Any, runs: Any, *, is_independent: bool, is_shared: bool
@@ -229,7 +229,7 @@ class Listed:
 
 
 @pytest.mark.parametrize("at_once", [1, 3])
-@pytest.mark.parametrize("limit", [120, 119])
+@pytest.mark.parametrize("made", [50, 51])
 @pytest.mark.parametrize(
     ("values", "count", "alike"),
     [
@@ -240,15 +240,14 @@ class Listed:
     ],
 )
 def test_starts_that_disagree_are_followed_by_others(
-    values, count, alike, limit, at_once, monkeypatch
+    values, count, alike, made, at_once, monkeypatch
 ):
     monkeypatch.setattr("curvewise.calibration.methods.multistart.Descent", Listed)
     monkeypatch.setattr(GlobalStage, "wide", lambda stage: (np.full(2, 0.7), 1.0))
-    Listed.values, Listed.begun = list(values), []
+    Listed.values, Listed.begun, Listed.made = list(values), [], made
     run = SimpleNamespace(failed=False, value=9.0, simulations=(np.zeros((2, 2)),))
     ledger: Any = SimpleNamespace(
         dimensions=2,
-        limit=limit,
         has_slopes=False,
         negligible=0.0,
         earlier_runs=[(np.zeros(2), run)],
@@ -267,10 +266,10 @@ def test_starts_that_disagree_are_followed_by_others(
     assert independent == [True, True, True, True, False, True][:count]
     radii = [rules.first_radius for rules, _, _ in Listed.begun[:5]]
     assert radii == [0.5, 0.25, 0.25, 0.25, 0.25][: len(radii)]
-    # Three starts of 20 runs, and as many that depend on them, fit into 120 runs. Otherwise the
-    # starts share their runs once the first has shown this.
+    # Three starts of 50 runs, and as many that depend on them, fit into 300 runs, whatever the
+    # limit of the search. Otherwise the starts share their runs once the first has shown this.
     shared = [shared for _, _, shared in Listed.begun]
-    assert shared == [False] * at_once + [limit < 120] * (len(shared) - at_once)
+    assert shared == [False] * at_once + [made > 50] * (len(shared) - at_once)
 
 
 class Slow(Descent):

@@ -4,7 +4,8 @@ Starts run one after the other with one worker, and three in parallel with sever
 is the middle of the bounds. The others are Latin hypercube samples of four points. After the first
 starts, every second one begins where the surrogate through the best runs is lowest
 (`global_stage`). It takes few runs, but depends on the others, so its agreement does not count.
-If starts take so many runs that too few of them fit into the limit, later ones use all runs.
+If starts take so many runs that too few of them fit into `_RUNS`, later ones use all runs. The
+limit of the search does not decide, so that a search can be continued with a larger one.
 
 M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
 input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245.
@@ -31,6 +32,7 @@ __all__ = ["Multistart", "places", "side_by_side"]
 R = TypeVar("R")
 
 _QUARTERS, _MARGIN = 4, 0.1  # of the bounds' range, in which no start is drawn
+_RUNS = 300  # in which starts that do not share runs should agree
 
 
 def places(k: int, random: np.random.Generator) -> Iterator[Array]:
@@ -117,7 +119,7 @@ class Multistart:
         if end is not None:
             self._ends.append(end)
             needed = 2 * self._starts * descent.made  # every second start is independent
-            self._is_shared |= needed > self._ledger.limit
+            self._is_shared |= needed > _RUNS
 
 
 def side_by_side(

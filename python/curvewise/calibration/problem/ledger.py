@@ -10,7 +10,6 @@ which run finished first.
 from __future__ import annotations
 
 import logging
-import math
 from collections.abc import Generator, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
@@ -98,11 +97,6 @@ class Ledger:
     def dimensions(self) -> int:
         """Number of parameters."""
         return len(self.space.names)
-
-    @property
-    def limit(self) -> float:
-        """Return the largest number of runs."""
-        return math.inf if self._limit is None else self._limit
 
     @property
     def starts_at_once(self) -> int:
