@@ -5,15 +5,14 @@ from __future__ import annotations
 from typing import SupportsFloat
 
 from .._core import common_part as compiled_common_part
-from .._options import Metric, Missing, Order, Radius
+from .._options import Metric, Order, Radius
 from ..curves.inputs import CurveLike, as_curves
-from ..curves.missing import skip_in_pair
 from .results import CommonPart
 
 __all__ = ["common_part"]
 
 
-# Shared text: curves, metric, missing
+# Shared text: curves, metric
 def common_part(
     P: CurveLike,
     Q: CurveLike,
@@ -22,7 +21,6 @@ def common_part(
     metric: Metric = "euclidean",
     p: Order = None,
     radius: Radius = None,
-    missing: Missing = "refuse",
 ) -> CommonPart:
     """Find the longest section of P that has a similar section of Q.
 
@@ -44,8 +42,6 @@ def common_part(
     radius : float > 0, optional
         The radius of the sphere of "haversine", in the unit of the distances. The default is
         6371008.8, the mean radius of the Earth in metres.
-    missing : {"refuse", "skip"}, default "refuse"
-        Whether points with a nan raise an error, or are skipped with a warning of how many.
 
     Returns
     -------
@@ -87,7 +83,6 @@ def common_part(
     >>> part.length, home[part.of_p], detour[part.of_q]
     (1.0, [(1, 0), (2, 0)], [(1, 0.1), (2, 0.1)])
     """
-    P, Q = skip_in_pair(P, Q, missing)
     P, Q = as_curves(P, Q)
     ground = {"metric": metric, "p": p, "radius": radius}
     length, of_p, of_q = compiled_common_part(P, Q, distance, ground)

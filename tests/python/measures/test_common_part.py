@@ -74,10 +74,6 @@ def test_two_tracks_on_the_sphere() -> None:
     assert part.length == pytest.approx(
         89 * 0.0005 * np.pi / 180 * 6_371_008.8 * np.cos(0.8203), 1e-3
     )
-    gaps = np.insert(other, 3, np.nan, axis=0)
-    with pytest.warns(UserWarning, match="nan"):
-        skipped = curvewise.common_part(road, gaps, 5.0, metric="haversine", missing="skip")
-    assert skipped == part
 
 
 def test_an_exact_distance_is_within() -> None:
