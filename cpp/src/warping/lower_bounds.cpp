@@ -46,13 +46,14 @@ struct Points {
 // The smallest box of a row's columns, one coordinate: blocks of 1, 2, 4, ... columns have their
 // extremes in turn, and two blocks cover the columns of a row.
 void move_into_boxes(const Points& P, const Points& Q, std::ptrdiff_t c, const Band& band,
-                     double* to) {
+                     double* to, Poller& poller) {
     const double* const p = P.data + c * P.stride;
     const double* const q = Q.data + c * Q.stride;
     Numbers lows(q, q + Q.size), highs(q, q + Q.size);
     std::ptrdiff_t left = P.size;  // rows
     for (std::ptrdiff_t block = 1; left > 0; block *= 2) {
         for (std::ptrdiff_t i = 0; i < P.size; ++i) {
+            poller.poll_in_loop(static_cast<std::size_t>(i));
             const warping::ColumnRange columns = band.columns(i);
             const std::ptrdiff_t length = columns.last - columns.first + 1;
             if (length < block || length >= 2 * block) continue;
@@ -80,7 +81,7 @@ Numbers moved(const Points& P, const Points& Q, std::ptrdiff_t dim, const warpin
     for (std::ptrdiff_t c = 0; c < dim; ++c) {
         double* const to = result.data() + c * P.size;
         if (band.is_limited()) {
-            move_into_boxes(P, Q, c, band, to);
+            move_into_boxes(P, Q, c, band, to, poller);
         } else {
             const auto [low, high] = Q.extremes(c);
             for (std::ptrdiff_t i = 0; i < P.size; ++i) {

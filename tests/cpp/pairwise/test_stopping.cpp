@@ -89,6 +89,11 @@ void single_calls() {
     hears("residuals",
           [&](Control* control) { curve_length_residuals(P, Q, out.data(), by_range, control); });
     hears("dtw_path", [&](Control* control) { return dtw_path(few, Q, {}, control); });
+    LowerBoundOptions bounds{Metric::sqeuclidean};
+    bounds.window = points / 8;
+    const Call bound = [&](Control* control) { return lb_improved(P, Q, bounds, control); };
+    hears("lb_improved", bound);
+    CHECK(polls_of(bound) > 8 * fewest_polls);  // for each size of its blocks of columns
     hears("common_part",
           [&](Control* control) { return common_part(few, Q, 1.0, {}, control).length; });
     hears("frechet_path", [&](Control* control) { return frechet_path(few, Q, {}, control); });
