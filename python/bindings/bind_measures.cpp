@@ -328,15 +328,6 @@ void bind_value(py::module_& module, const char* name, decltype(&value_of<DtwOpt
         });
 }
 
-template <auto bound>
-double lower_bound(const CurveArray& P, const CurveArray& Q, const py::dict& options) {
-    return computed(P, Q, read_options<LowerBoundOptions>(options), bound);
-}
-
-double bound_soft_dtw(const CurveArray& P, const CurveArray& Q, const py::dict& options) {
-    return computed(P, Q, read_options<SoftDtwOptions>(options), soft_dtw);
-}
-
 }  // namespace
 
 void bind_measures(py::module_& module) {
@@ -391,28 +382,12 @@ void bind_measures(py::module_& module) {
                filled<CurveLengthOptions, allocate_residuals, curve_length_residuals>);
     module.def("value_and_gradient", gradient_by_name);
     module.def("values_and_gradients", gradients_of_pairs);
-    module.def("soft_dtw", bound_soft_dtw);
-    module.def("lb_improved", lower_bound<lb_improved>);
-    module.def("lb_keogh", lower_bound<lb_keogh>);
-    module.def("lb_kim", lower_bound<lb_kim>);
+    module.def("soft_dtw", found_number<SoftDtwOptions, soft_dtw>);
+    module.def("lb_improved", found_number<LowerBoundOptions, lb_improved>);
+    module.def("lb_keogh", found_number<LowerBoundOptions, lb_keogh>);
+    module.def("lb_kim", found_number<LowerBoundOptions, lb_kim>);
     module.def("edit_path", edit_path);
     module.def("edit_table", edit_table);
-    module.def("step_patterns", [] {
-        py::dict patterns;
-        for (const StepSet& one : step_patterns) patterns[one.name] = as_tuple(step_rows(one));
-        return patterns;
-    });
-    module.def("rabiner_juang", [](int type, const py::object& weight, bool smoothed) {
-        constexpr auto names = choice_names(SlopeWeight{});
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            if (!is_text(weight, names[i])) continue;
-            return as_tuple(rabiner_juang(type, static_cast<SlopeWeight>(i), smoothed));
-        }
-        refuse_choice("weight", weight, names.data(), names.size());
-    });
-    module.def("measures", measure_defaults);
-    module.def("choices", option_choices);
-    module.def("presets", preset_conditions);
 }
 
 }  // namespace curvewise::bindings

@@ -16,6 +16,7 @@ PYBIND11_MODULE(_core, module, pybind11::mod_gil_not_used()) {
     }
     module.doc() = "The compiled library behind curvewise; private.";
     module.attr("earth_radius") = curvewise::earth_radius;
+    curvewise::bindings::bind_options(module);
     curvewise::bindings::bind_measures(module);
     curvewise::bindings::bind_pointwise(module);
     curvewise::bindings::bind_pairwise(module);

@@ -291,18 +291,24 @@ Measure read_measure(const py::object& name, const py::dict& options) {
     return *found;
 }
 
+namespace {
+
+// The defaults of every measure's options.
 py::dict measure_defaults() {
     py::dict result;
     for_each_measure([&](const auto& options) { result[options.measure] = written(options); });
     return result;
 }
 
+// The choices of every option that has choices.
 py::dict option_choices() {
     py::dict result;
     for_each_measure([&](auto options) { visit_options(options, ChoiceCollector(result)); });
     return result;
 }
 
+// For every preset and measure: whether the curves are scaled, and the options that differ from the
+// default.
 py::dict preset_conditions() {
     py::dict result;
     constexpr auto names = choice_names(Preset{});
@@ -319,6 +325,32 @@ py::dict preset_conditions() {
         result[names[i]] = measures;
     }
     return result;
+}
+
+py::dict named_step_patterns() {
+    py::dict patterns;
+    for (const StepSet& one : step_patterns)
+        patterns[one.name] = bindings::as_tuple(step_rows(one));
+    return patterns;
+}
+
+py::tuple rows_of_rabiner_juang(int type, const py::object& weight, bool smoothed) {
+    constexpr auto names = choice_names(SlopeWeight{});
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (!is_text(weight, names[i])) continue;
+        return bindings::as_tuple(rabiner_juang(type, static_cast<SlopeWeight>(i), smoothed));
+    }
+    refuse_choice("weight", weight, names.data(), names.size());
+}
+
+}  // namespace
+
+void bind_options(py::module_& module) {
+    module.def("measures", measure_defaults);
+    module.def("choices", option_choices);
+    module.def("presets", preset_conditions);
+    module.def("step_patterns", named_step_patterns);
+    module.def("rabiner_juang", rows_of_rabiner_juang);
 }
 
 }  // namespace curvewise::bindings

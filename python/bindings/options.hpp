@@ -257,11 +257,4 @@ Options read_options(const py::tuple& values, const py::tuple& defaults, OwnDist
 // A measure by its name, with its options, for a batch.
 Measure read_measure(const py::object& name, const py::dict& options);
 
-// The defaults of every measure's options; the choices of every option that has choices; and for
-// every preset and measure, whether the curves are scaled, and the options that differ from the
-// default.
-py::dict measure_defaults();
-py::dict option_choices();
-py::dict preset_conditions();
-
 }  // namespace curvewise::bindings

@@ -349,9 +349,10 @@ _OF_PYTHON = {
 
 def _is_called_by_pairs(measure: Measure, options: Mapping[str, Any]) -> bool:
     """Return whether pairs are called from Python."""
+    if callable(measure) or callable(options.get("metric")):
+        return True
     asked = bool(options.get("closed")) or not options.get("dependent", True)
-    is_walk = asked and measure in _OF_PYTHON
-    return callable(measure) or callable(options.get("metric")) or is_walk
+    return asked and measure in _OF_PYTHON
 
 
 def _called_by_pairs(

@@ -14,7 +14,7 @@ from ..curves.several_curves import curve_list
 from ..solvers.cards import CardContent, card_text
 from .card_paths import CYCLES, paths_of
 from .driven_model import DrivenModel, Part, PointType, given_stresses
-from .point import MaterialPoint
+from .point import MaterialPoint, parameters_of
 from .readings import MaterialReading, Span, reading_of, strain_and_stress
 
 __all__ = ["Material"]
@@ -90,7 +90,8 @@ class Material(MaterialPoint, ABC):
             if len(rates) != len(tests):
                 raise ValueError(f"rates has {len(rates)} entries for {len(tests)} tests")
             for rate in rates:
-                _ = replace(self, rate=float(rate)).names  # type: ignore[call-arg]  # checks it
+                option: dict[str, Any] = {"rate": float(rate)}
+                parameters_of(replace(self, **option))  # raises if the rate is out of its range
         return DrivenModel(
             self,
             tuple(test[:, 0].copy() for test in tests),

@@ -19,7 +19,7 @@ from .._core import material_parameters, material_response, material_stress
 from .._names import did_you_mean
 from ..curves.inputs import Array, as_curve
 
-__all__ = ["MaterialPoint", "Parameter"]
+__all__ = ["MaterialPoint", "Parameter", "parameters_of"]
 
 
 class Parameter(NamedTuple):
@@ -50,7 +50,7 @@ class MaterialPoint:
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """The parameters in their order, with units and meaning."""
-        return _parameters_of(self)
+        return parameters_of(self)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -194,7 +194,8 @@ class MaterialPoint:
 
 
 @cache  # not within the material: a model that has run must be the same to a store
-def _parameters_of(material: MaterialPoint) -> tuple[Parameter, ...]:
+def parameters_of(material: MaterialPoint) -> tuple[Parameter, ...]:
+    """Return the parameters of a material; raise ValueError if its options make no sense."""
     return tuple(Parameter(*row) for row in material_parameters(_text_of(material)))
 
 

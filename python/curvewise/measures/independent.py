@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .._options import check_independent
+from .._options import check_independent, real_number
 from ..curves.inputs import as_curves
 from .step_pattern import may_be_negative
 
@@ -36,4 +36,6 @@ def sum_over_coordinates(measure: Callable[..., float], given: Mapping[str, Any]
     # A coordinate may be above the cutoff, and the sum below it, if others are negative.
     most = None if may_be_negative(options["step_pattern"]) else cutoff
     total = sum(measure(P[:, [c]], Q[:, [c]], **options, cutoff=most) for c in range(d))
-    return math.inf if cutoff is not None and total > float(cutoff) else total
+    if cutoff is None:
+        return total
+    return math.inf if total > real_number("cutoff", cutoff, -math.inf, "give a number") else total
