@@ -5,12 +5,13 @@ are ten times as many; and only those that take some ten seconds of one core at 
 fit into a minute. What takes longer (SDRM by PCM, the cross-validations, searches of more than
 20,000 runs) is made again by regenerate.py alone. The seed of the draw is printed.
 
-Equal means every bit: parameters, values, numbers of runs, messages, on every x86-64 processor with
-AVX2 (arithmetic.py). On others or with other libraries exp, log and BLAS round differently, and a
-search, which compares values, may go another way: there every stage must end within 1 % of the
-value that is stored, the accuracy of what the verdicts say, or below 1e-6 of the value in the
-middle of the bounds, which is 0 to a search that has a perfect model. A third of these results may
-miss that: 4 of 60 did with the arithmetic of AVX-512, some lower and some higher, by 2 % and more.
+Equal means every bit: parameters, values, numbers of runs, on every x86-64 processor with AVX2
+(arithmetic.py). Messages decide no number and are not stored. On other processors or with other
+libraries exp, log and BLAS round differently. A search compares values, so it may go another way
+there: every stage must end within 1 % of the stored value, the accuracy of what the verdicts say.
+Below 1e-6 of the value in the middle of the bounds all values are 0, to a search that has a
+perfect model. A third of these results may miss that: 4 of 60 did with the arithmetic of AVX-512,
+some lower and some higher, by 2 % and more.
 """
 
 from __future__ import annotations

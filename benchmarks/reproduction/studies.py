@@ -119,7 +119,6 @@ class Stage:
     value: float
     measures: dict[str, float]
     evaluations: int
-    message: str
     trace: list[float]
 
 
@@ -188,7 +187,6 @@ def _stages(task: Task) -> list[dict[str, Any]]:
                 "value": best.value if best else stages[-1]["value"],
                 "measures": best.measures if best else stages[-1]["measures"],
                 "evaluations": result.evaluations,
-                "message": result.message,
                 "trace": trace if task.traced and method == "de" else [],
             }
         )
