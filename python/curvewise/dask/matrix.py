@@ -8,20 +8,20 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any, SupportsFloat, SupportsIndex
 
 import numpy as np
+import numpy.typing as npt
 
 from .._core import build_info, check_batch, is_symmetric
+from .._options import check_choice
 from ..curves.inputs import Array, as_curve_list, as_curve_lists
 from ..curves.layouts import Layout
 from ..curves.reference_systems import check_reference_systems
-from ..curves.several_curves import digest
 from ..many import pairwise
 from ..many.pairwise import Curves, Measure
-from .block_store import begin_store
 from .cancelled import watch
 from .pieces import (
     Piece,
@@ -32,6 +32,7 @@ from .pieces import (
     refuse_local_only,
     tokenize,
 )
+from .stored_matrix import Contents, Known, begin_store
 
 __all__ = ["cdist", "pdist"]
 
@@ -47,6 +48,7 @@ def cdist(
     block: SupportsIndex | None = None,
     cutoff: SupportsFloat | None = None,
     store: Store | None = None,
+    dtype: npt.DTypeLike = "float64",
     layout: Layout | None = None,
     **options: Any,
 ) -> dask_array.Array:
@@ -63,10 +65,14 @@ def cdist(
         second of dtw or frechet for each block.
     store : path, optional
         A folder for the matrix. The matrix is then computed at once, on the scheduler in use, and
-        written block by block as a zarr array of float64. If a call is interrupted, even by
-        SIGKILL, repeat it: it computes only the missing blocks. Stored blocks are checked first. A
-        warning names the damaged ones, which are computed again. Workers of a cluster must see the
-        same folder.
+        written block by block as a zarr array. If a call is interrupted, even by SIGKILL, repeat
+        it: it computes only the missing blocks. With new curves behind the stored ones, the matrix
+        grows: the call computes only the rows and columns of the new curves. `block` is that of the
+        store then. Stored blocks are checked first. A warning names the damaged ones, which are
+        computed again. Workers of a cluster must see the same folder.
+    dtype : {"float64", "float32"}
+        The type of the distances. They are computed in float64; "float32" rounds them, which halves
+        the disk and the memory of the result.
     layout : {"channels_first", "channels_last"}, optional
         Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
         rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
@@ -75,7 +81,8 @@ def cdist(
     -------
     dask.array.Array, shape (k, l)
         A lazy array: ``.compute()`` runs it on the scheduler in use; with `store` it reads the
-        stored blocks. Entry (i, j) is bitwise identical to that of :func:`curvewise.cdist`.
+        stored blocks. Entry (i, j) is bitwise identical to that of :func:`curvewise.cdist`, or to
+        that in float32.
 
     Raises
     ------
@@ -100,9 +107,11 @@ def cdist(
     are sent once. The bar of ``dask.diagnostics.ProgressBar`` or the cluster's dashboard shows the
     progress. Ctrl-C ends the blocks that have begun within 0.2 s, cancelling a task within 1 s.
 
-    A store takes 8 k l bytes of disk, and each thread the memory of up to three blocks. One program
-    at a time may fill it. ``zarr.open_array(store)`` reads it without dask. It notices a block
-    whose content has changed, but not blocks that have changed places.
+    A store takes 8 k l bytes of disk, 4 k l in float32, and each thread the memory of up to three
+    blocks. One program at a time may fill it. A matrix that grows writes the blocks at its edge
+    again; arrays that this function returned before cannot read them then.
+    ``zarr.open_array(store)`` reads a store without dask. It notices a block whose content has
+    changed, but not blocks that have changed places.
 
     Examples
     --------
@@ -125,14 +134,20 @@ def cdist(
         mirrored = is_symmetric(name, options) and XB is None  # it checks the options too
         # A block cannot say where in the whole list a curve is.
         check_batch(rows, others, name, options)
+    dtype = _checked_dtype(dtype)
     size = block_size(block, rows, columns)
-    token = tokenize(rows, columns, measure, limit, options, size, mirrored)
-    compute = partial(_block, measure=measure, cutoff=limit, options=options)
-    lazy = _blocks(pieces(rows, size), None if mirrored else pieces(columns, size), token, compute)
-    if store is None:
-        return lazy
-    contents = _contents(measure, limit, options, XA=rows, XB=rows if XB is None else columns)
-    return begin_store(store, lazy.shape, (size, size), contents).filled(lazy)
+    kept = None
+    if store is not None:
+        curves = {"XA": rows, "XB": rows if XB is None else columns}
+        contents = Contents(_settings(measure, limit, options, dtype), **curves)
+        shape = len(rows), len(columns)
+        kept = begin_store(store, shape, (size, size), contents, keep_block=block is None)
+        size = kept.store.array.chunks[0]
+    token = tokenize(rows, columns, measure, limit, options, size, mirrored, dtype)
+    compute = partial(_block, measure=measure, cutoff=limit, options=options, dtype=dtype)
+    sides = pieces(rows, size), None if mirrored else pieces(columns, size)
+    build = partial(_blocks, *sides, token, compute, dtype)
+    return kept.filled(build) if kept else build({})
 
 
 # Shared text: layout
@@ -143,6 +158,7 @@ def pdist(
     block: SupportsIndex | None = None,
     cutoff: SupportsFloat | None = None,
     store: Store | None = None,
+    dtype: npt.DTypeLike = "float64",
     layout: Layout | None = None,
     **options: Any,
 ) -> dask_array.Array:
@@ -155,7 +171,9 @@ def pdist(
     block : int, optional
         As for :func:`cdist`: a block has as many distances as one of the matrix.
     store : path, optional
-        As for :func:`cdist`; it takes half the disk.
+        As for :func:`cdist`; it takes half the disk, and does not grow.
+    dtype : {"float64", "float32"}
+        As for :func:`cdist`.
     layout : {"channels_first", "channels_last"}, optional
         Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
         rows. The default is rows, with a LayoutWarning if there are more coordinates than points.
@@ -191,40 +209,53 @@ def pdist(
         name = pairwise._check_names(measure, options)
         pairwise._check_symmetric(name, options)
         check_batch(curves, None, name, options)
+    dtype = _checked_dtype(dtype)
     size = block_size(block, curves)
-    token = tokenize(curves, measure, limit, options, size)
-    compute = partial(_run, measure=measure, cutoff=limit, options=options)
-    lazy = _runs(pieces(curves, size), size, token, compute)
+    token = tokenize(curves, measure, limit, options, size, dtype)
+    compute = partial(_run, measure=measure, cutoff=limit, options=options, dtype=dtype)
+    lazy = _runs(pieces(curves, size), size, token, compute, dtype)
     if store is None:
         return lazy
-    contents = _contents(measure, limit, options, X=curves)
-    return begin_store(store, lazy.shape, (size * size,), contents).filled(lazy)
+    contents = Contents(_settings(measure, limit, options, dtype), X=curves)
+    return begin_store(store, lazy.shape, (size * size,), contents).filled(lambda _: lazy)
 
 
-def _contents(
-    measure: Measure, limit: float, options: Mapping[str, Any], **lists: list[Array]
+def _checked_dtype(dtype: npt.DTypeLike) -> str:
+    name = np.dtype(dtype).name
+    check_choice("dtype", name, ("float64", "float32"))
+    return name
+
+
+def _settings(
+    measure: Measure, limit: float, options: Mapping[str, Any], dtype: str
 ) -> dict[str, str]:
-    """Return what a store is of, by the names that the caller knows."""
+    """Return what the distances of a store depend on besides the curves."""
     if callable(measure):
         raise ValueError(
             "a store needs a measure by its name: a function may be another one when the store is "
             "begun again"
         )
-    given = {name: digest(curves) for name, curves in lists.items()}
-    return given | {
+    return {
         "measure": measure,
         "options": repr(sorted(options.items())),
         "cutoff": repr(limit),
+        "dtype": dtype,
         "version of curvewise": build_info()["version"],
     }
 
 
 def _blocks(
-    rows: list[Piece], columns: list[Piece] | None, token: str, compute: partial[Array]
+    rows: list[Piece],
+    columns: list[Piece] | None,
+    token: str,
+    compute: partial[Array],
+    dtype: str,
+    known: Known,
 ) -> dask_array.Array:
     """Return the lazy matrix: a task for each piece of curves, and one for each block.
 
-    Without columns it is that of the rows and themselves, of a symmetric measure.
+    Without columns it is that of the rows and themselves, of a symmetric measure. Blocks in `known`
+    are extended.
 
     The graph is written out, since no function of dask.array leaves blocks to their transposes:
     see "Custom graphs" in dask's documentation.
@@ -234,15 +265,35 @@ def _blocks(
     graph |= {(Q, b): piece for b, piece in enumerate(columns or [])}
     chunks = tuple(tuple(map(len, pieces)) for pieces in (rows, columns or rows))
     for a, b in itertools.product(*(range(len(lengths)) for lengths in chunks)):
+        stored = known.get((a, b))
+        task = partial(_extended, stored=stored, compute=compute) if stored else compute
         if columns:
-            graph[name, a, b] = (compute, (P, a), (Q, b))
+            graph[name, a, b] = (task, (P, a), (Q, b))
         elif a == b:
-            graph[name, a, b] = (compute, (P, a))
+            graph[name, a, b] = (task, (P, a))
         elif a > b:
             graph[name, a, b] = (np.transpose, (name, b, a))
         else:
-            graph[name, a, b] = (compute, (P, a), (P, b))
-    return lazy_array(graph, name, chunks, np.float64)
+            graph[name, a, b] = (task, (P, a), (P, b))
+    return lazy_array(graph, name, chunks, dtype)
+
+
+def _extended(
+    rows: Piece,
+    columns: Piece | None = None,
+    *,
+    stored: Callable[[], Array],
+    compute: partial[Array],
+) -> Array:
+    """Compute what a block has besides its stored first rows and columns."""
+    corner = stored()
+    k, m = corner.shape
+    old, new = Piece(rows.curves[:k]), Piece(rows.curves[k:])
+    if columns is None:
+        beside = compute(old, new)
+        return np.block([[corner, beside], [beside.T, compute(new)]])
+    beside = compute(old, Piece(columns.curves[m:]))
+    return np.vstack([np.hstack([corner, beside]), compute(new, columns)])
 
 
 def _block(
@@ -252,15 +303,18 @@ def _block(
     measure: Measure,
     cutoff: float,
     options: dict[str, Any],
+    dtype: str,
 ) -> Array:
     """Compute a block; without columns one of the diagonal, each of its pairs once."""
     others = None if columns is None else columns.curves
     progress = watch() or False
     wanted = {"cutoff": cutoff, "progress": progress, "layout": "channels_last", **options}
-    return np.asarray(pairwise.cdist(rows.curves, others, measure, **wanted))
+    return np.asarray(pairwise.cdist(rows.curves, others, measure, **wanted), dtype)
 
 
-def _runs(parts: list[Piece], size: int, token: str, compute: partial[Array]) -> dask_array.Array:
+def _runs(
+    parts: list[Piece], size: int, token: str, compute: partial[Array], dtype: str
+) -> dask_array.Array:
     """Return the lazy triangle, row by row, in runs of size * size distances."""
     name, P = (f"{part}-{token}" for part in ("pdist", "pdist-P"))
     graph: dict[Any, Any] = {(P, a): piece for a, piece in enumerate(parts)}
@@ -278,7 +332,7 @@ def _runs(parts: list[Piece], size: int, token: str, compute: partial[Array]) ->
         )
         graph[name, run] = (part, behind)
     lengths = tuple(end - begin for begin, end in itertools.pairwise(begins))
-    return lazy_array(graph, name, (lengths,), np.float64)
+    return lazy_array(graph, name, (lengths,), dtype)
 
 
 def _run(
@@ -289,6 +343,7 @@ def _run(
     measure: Measure,
     cutoff: float,
     options: dict[str, Any],
+    dtype: str,
 ) -> Array:
     """Compute some rows of the triangle and return the requested part."""
     curves = [curve for piece in parts for curve in piece.curves]
@@ -299,4 +354,4 @@ def _run(
     begins = np.cumsum([0, *range(len(ours) - 1, -1, -1)])
     pairs = zip(itertools.pairwise(begins), rectangle, strict=True)
     parts_of_rows = (part for (i, j), row in pairs for part in (triangle[i:j], row))
-    return np.concatenate([np.empty(0), *parts_of_rows])[within]
+    return np.concatenate([np.empty(0), *parts_of_rows])[within].astype(dtype, copy=False)

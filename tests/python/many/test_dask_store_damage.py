@@ -215,7 +215,8 @@ def test_a_description_that_is_damaged_is_refused_in_words(store):
     description = store / "zarr.json"
     text = description.read_text(encoding="utf-8")
     for old, new in (
-        ("float64", "float32"), ("little", "big"), ('"NaN"', "0.0"), ("crc32c", "bytes"),
+        ('_type": "float64"', '_type": "float32"'), ("little", "big"), ('"NaN"', "0.0"),
+            ("crc32c", "bytes"),
         (text, ""), (text, text[:200]), (text, "null"), (text, "[" * 2000),
     ):  # fmt: skip
         description.write_text(text.replace(old, new), encoding="utf-8")
