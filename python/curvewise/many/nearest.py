@@ -119,8 +119,9 @@ class Index:
         if callable(measure) or callable(options.get("metric")):
             raise ValueError(
                 "an index needs the lower bounds of a named measure and metric, and a function has "
-                "none; compute all distances, np.argsort(curvewise.cdist(queries, curves, ...)), "
-                "or give curvewise.sklearn.CurveKNeighborsClassifier a function as its measure"
+                "none; sort all distances, np.argsort(curvewise.cdist(queries, curves, ...), "
+                "axis=1, kind='stable')[:, :k], or give an estimator of curvewise.sklearn a "
+                "function of two curves as its measure"
             )
         self._measure = _check_names(measure, options)
         self._options = options

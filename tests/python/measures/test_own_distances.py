@@ -388,3 +388,15 @@ def test_errors_of_a_batch_name_the_curve_before_any_call() -> None:
     X = [[0.0, 1.0], [0.0, 2.0]]
     refused(ValueError, match, lambda: curvewise.pdist(X, metric=asked, open_end=True))
     assert not asked.shapes
+
+
+@pytest.mark.parametrize("options", [{"metric": canberra}, {"measure": curvewise.dtw}])
+def test_an_index_without_bounds_shows_the_form_that_sorts_all(options: dict[str, Any]) -> None:
+    curves = [random_pair(5, 4, 2, seed=k)[0] for k in range(4)]
+    with pytest.raises(ValueError, match="a function has none; sort all distances, ") as met:
+        curvewise.Index(curves, **options)
+    code = str(met.value).partition("all distances, ")[2].partition(", or give")[0]
+    names = {"np": np, "curvewise": curvewise, "queries": curves, "curves": curves, "k": 2}
+    found = eval(code.replace("...", "**options"), names | {"options": options})
+    assert found[:, 0].tolist() == [0, 1, 2, 3]
+    assert found.shape == (4, 2)
