@@ -6,6 +6,7 @@ Each result is bound to the type that the documentation promises.
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -84,7 +85,7 @@ slopes: FloatArray = curves.derivative(P)
 layout: type[UserWarning] = curvewise.LayoutWarning
 prepared = curvewise.Prepared(listed, "dtw", window=4)
 number = prepared(Q) + prepared(Q, cutoff=2)
-names: list[str] = curvewise.available_measures()
+names: Sequence[str] = curvewise.available_measures()
 
 index = curvewise.Index([P, Q], "dtw", window=3)
 index.add([P])

@@ -9,12 +9,13 @@ measure whose ground distance is a callable.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, ValuesView
 from functools import partial
 from itertools import combinations, product
 from typing import Any, Protocol, SupportsFloat, SupportsIndex, TypeAlias, get_args, overload
 
 import numpy as np
+import numpy.typing as npt
 
 from .._core import cdist as compiled_cdist
 from .._core import check_batch, is_symmetric
@@ -53,13 +54,15 @@ class Indexed(Protocol):
         """The rows by their places."""
 
 
-Curves: TypeAlias = Sequence[CurveLike] | Iterator[CurveLike] | Array
+Curves: TypeAlias = (
+    Sequence[CurveLike] | Iterator[CurveLike] | ValuesView[CurveLike] | npt.NDArray[Any]
+)
 """k curves: an array of shape (k, n, d), or curves of different lengths, of a generator too."""
 LabelledCurves: TypeAlias = Mapping[Any, CurveLike] | Grouped | Indexed
 """Curves by their labels."""
 
 
-def available_measures() -> list[str]:
+def available_measures() -> list[MeasureName]:
     """Return the measures of :func:`cdist`, :func:`pdist` and :class:`Prepared`.
 
     Returns
@@ -77,7 +80,7 @@ def available_measures() -> list[str]:
     >>> curvewise.available_measures()[:2]
     ['area', 'curve_length']
     """
-    return sorted(MEASURES)
+    return sorted(info.name for info in MEASURES.values())
 
 
 @overload

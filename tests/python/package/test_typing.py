@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -11,17 +12,20 @@ import pytest
 
 import curvewise
 
-USER_FILE = Path(__file__).resolve().parents[2] / "typing" / "every_public_function.py"
+FOLDER = Path(__file__).resolve().parents[2] / "typing"
+USER_FILE = FOLDER / "every_public_function.py"
+COLLECTIONS = FOLDER / "collections_of_curves.py"
 
 
 @pytest.mark.nightly
-def test_mypy_strict_accepts_every_public_function(tmp_path: Path) -> None:
+@pytest.mark.parametrize("user_file", [USER_FILE, COLLECTIONS], ids=lambda file: file.stem)
+def test_mypy_strict_accepts_a_users_file(user_file: Path, tmp_path: Path) -> None:
     pytest.importorskip("mypy", reason='no mypy: pip install "curvewise[dev]"')
     checked = subprocess.run(
         [
             *(sys.executable, "-m", "mypy", "--strict", "--config-file="),
-            f"--cache-dir={tmp_path}",
-            str(USER_FILE),
+            *(f"--cache-dir={tmp_path}", "--disable-error-code=import-untyped"),  # pandas
+            str(user_file),
         ],
         capture_output=True,
         text=True,
@@ -30,6 +34,11 @@ def test_mypy_strict_accepts_every_public_function(tmp_path: Path) -> None:
         check=False,
     )
     assert checked.returncode == 0, checked.stdout + checked.stderr
+
+
+def test_the_collections_that_types_accept_are_accepted() -> None:
+    pytest.importorskip("sklearn", reason='no scikit-learn: pip install "curvewise[sklearn]"')
+    runpy.run_path(str(COLLECTIONS))
 
 
 def test_the_user_file_calls_every_public_function() -> None:
