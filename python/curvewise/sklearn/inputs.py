@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, ValuesView
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -44,6 +44,7 @@ __all__ = [
     "Options",
     "RegressorMixin",
     "TransformerMixin",
+    "as_listed",
     "check_classification_targets",
     "check_is_fitted",
     "check_random_state",
@@ -119,10 +120,11 @@ class CurveEstimator(BaseEstimator):  # type: ignore[misc]  # untyped
 
 def curves_to_fit(estimator: Any, X: Any, *y: Any) -> tuple[Any, ...]:
     """Return the curves of X, and y if it is given, checked where X is a table of rows."""
+    X = _read_once(X)
     if hasattr(estimator, "measure"):
         estimator._crs = _reference_system(estimator, X, None)
     y = tuple(in_order_of(target, X, "y") for target in y)
-    X, _ = unlabelled(X, "X")
+    X = as_listed(X)
     if is_list_of_curves(X):
         estimator.__dict__.pop("n_features_in_", None)  # of rows that were fitted before
         return as_curve_list(X, "X", keep_float32=True, layout=estimator.layout), *y
@@ -144,13 +146,25 @@ def checked_sample_weight(sample_weight: Any, curves: Any) -> Array:
 def fitted_curves(estimator: Any, X: Any) -> Any:
     """Return curves to be compared with those that were fitted."""
     check_is_fitted(estimator)
+    X = _read_once(X)
     if hasattr(estimator, "measure"):
         _reference_system(estimator, X, estimator._crs)
-    X, _ = unlabelled(X, "X")
+    X = as_listed(X)
     if is_list_of_curves(X):
         # The curves of the fit have been checked already.
         return as_curve_list(X, "X", keep_float32=True, layout=estimator.layout or "channels_last")
     return list(validate_data(estimator, X, reset=False, dtype=np.float64))
+
+
+def as_listed(X: Any) -> Any:
+    """Return any collection of curves as a list; tables and arrays stay."""
+    curves, _ = unlabelled(_read_once(X), "X")
+    return curves
+
+
+def _read_once(X: Any) -> Any:
+    """Return curves of an iterator, which can be read only once, or of a dict's values."""
+    return list(X) if isinstance(X, Iterator | ValuesView) else X
 
 
 def _reference_system(estimator: Any, X: Any, known: Any) -> Any:

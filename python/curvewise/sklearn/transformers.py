@@ -22,6 +22,7 @@ from .inputs import (
     CurveEstimator,
     ManyCurves,
     TransformerMixin,
+    as_listed,
     curves_to_fit,
     fitted_curves,
     is_list_of_curves,
@@ -79,6 +80,7 @@ class _CurveTransformer(TransformerMixin, CurveEstimator):  # type: ignore[misc]
         ValueError, TypeError
             As for the function that transforms a curve, with the place of the curve.
         """
+        X = as_listed(X)
         curves = fitted_curves(self, X)
         function = self._function()
         found = []

@@ -71,6 +71,27 @@ def test_arrays_and_lists_of_curves_alike():
         np.testing.assert_array_equal(classifier.predict([c + 0.5 for c in X]), expected)
 
 
+@pytest.mark.parametrize(
+    "collected",
+    [iter, lambda curves: dict(enumerate(curves)), lambda curves: dict(enumerate(curves)).values()],
+)
+@pytest.mark.parametrize(
+    ("name", "options", "answer"),
+    [
+        ("CurveKMeans", {"n_clusters": 3, "random_state": 0}, "predict"),
+        ("CurveKMedoids", {"n_clusters": 3}, "predict"),
+        ("CurveKNeighborsClassifier", {"n_neighbors": 3}, "predict"),
+        ("CurveDerivative", {}, "transform"),
+    ],
+)
+def test_any_collection_of_curves_is_a_list(name, options, answer, collected):
+    curves, y = labelled(12)
+    estimator = getattr(curvewise.sklearn, name)(**options)
+    expected = getattr(estimator.fit(curves, y), answer)(curves)
+    found = getattr(estimator.fit(collected(curves), y), answer)(collected(curves))
+    assert all(np.array_equal(a, b) for a, b in zip(found, expected, strict=True))
+
+
 def test_passes_the_checks_of_estimators():
     """All but one: scikit-learn takes a list of rows for a table, and curves differ in length."""
     from sklearn.utils.estimator_checks import check_estimator
