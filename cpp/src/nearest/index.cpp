@@ -4,7 +4,6 @@
 // keeps them waiting: add() writes behind the curves that others see, remove() only marks curves,
 // and both then show another view to the calls that begin later.
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -17,6 +16,7 @@
 #include "curves/owned_curve.hpp"
 #include "curvewise/nearest.hpp"
 #include "nearest/callers.hpp"
+#include "nearest/index_checks.hpp"
 #include "nearest/index_file.hpp"
 #include "nearest/index_view.hpp"
 #include "nearest/query_run.hpp"
@@ -33,7 +33,6 @@ using curves::CurveList;
 using nearest::Caller;
 using nearest::Callers;
 using nearest::IndexView;
-using nearest::NeighborSearch;
 using nearest::OpenedIndex;
 using nearest::Queries;
 using nearest::QueryRun;
@@ -41,7 +40,6 @@ using nearest::SizeCounts;
 using nearest::TargetIndices;
 using pairwise::PointSource;
 using pairwise::Seen;
-using pairwise::TargetQuery;
 using pairwise::Targets;
 using runtime::Poller;
 
@@ -63,14 +61,14 @@ class Index::State {
         Poller poller(control);
         refuse_reports("add", "does not see the curves; add them after that call");
         const Caller adding(callers_);
-        check_like_first({curves, "curves"}, view());
+        checks().check_like_first({curves, "curves"}, view());
         const std::unique_ptr<Targets> added = prepared(curves, opened, poller);
         SizeCounts::Counts more;
         for (const CurveView& curve : curves) ++more[curve.size()];
         poller.finish();  // the last that may throw Stopped
         const std::lock_guard<std::mutex> lock(changing_);
         IndexView next = view();
-        check_like_first({curves, "curves"}, next);  // another may have added the first meanwhile
+        checks().check_like_first({curves, "curves"}, next);  // another may have added the first
         next.sizes = counts_.with(more, std::move(next.sizes));
         const Seen seen = added->seen();
         next.seen.size += seen.size;
@@ -122,18 +120,17 @@ class Index::State {
                     Write write) const {
         const Caller asking(callers_);
         const IndexView view = this->view();
-        check_count(count, view.seen.remaining, X == nullptr);
+        nearest::check_count(count, view.seen.remaining, X == nullptr);
         begin(X == nullptr ? static_cast<std::size_t>(view.seen.remaining) : X->size());
-        const auto answer = [&](NeighborSearch& search, TargetQuery& query, std::size_t i,
-                                std::int64_t all_steps, nearest::LeftOut left_out) {
-            runtime::ScratchVector<Neighbor> found =
-                search.nearest(query, all_steps, count, left_out);
+        nearest::Question question;
+        question.count = count;
+        const auto write_found = [&](std::size_t i, runtime::ScratchVector<Neighbor>& found) {
             give_indices(found);
             found.resize(static_cast<std::size_t>(count),
                          {-1, std::numeric_limits<double>::infinity()});
             write(i, found);
         };
-        ask(X, view, options, control, std::ref(answer));
+        ask(X, view, question, options, control, std::ref(write_found));
     }
 
     std::vector<std::vector<Neighbor>> radius_neighbors(const std::vector<CurveView>* X,
@@ -144,15 +141,15 @@ class Index::State {
         curves::check_limit("radius", radius, measure_->may_be_negative());
         std::vector<std::vector<Neighbor>> results(
             X == nullptr ? static_cast<std::size_t>(view.seen.remaining) : X->size());
-        const auto answer = [&](NeighborSearch& search, TargetQuery& query, std::size_t i,
-                                std::int64_t all_steps, nearest::LeftOut left_out) {
-            runtime::ScratchVector<Neighbor> found = search.within(
-                query, all_steps, radius, options.with_distances || options.sort_results, left_out);
+        nearest::Question question;
+        question.radius = radius;
+        question.with_distances = options.with_distances || options.sort_results;
+        const auto write = [&](std::size_t i, runtime::ScratchVector<Neighbor>& found) {
             if (options.sort_results) std::sort(found.begin(), found.end(), nearest::is_nearer);
             give_indices(found);
             results[i].assign(found.begin(), found.end());
         };
-        ask(X, view, options, control, std::ref(answer));
+        ask(X, view, question, options, control, std::ref(write));
         return results;
     }
 
@@ -210,10 +207,10 @@ class Index::State {
                 checked.name = name;
                 added->look_at(checked, opened->stored[i], bounds[i], poller);
             } else if (are_here) {
-                added->look_at(checked_curve(curves[i], name, poller), opened->stored[i], nullptr,
+                added->look_at(checks().curve(curves[i], name, poller), opened->stored[i], nullptr,
                                poller);
             } else {
-                added->add(checked_curve(curve.view(), name, poller), poller);
+                added->add(checks().curve(curve.view(), name, poller), poller);
             }
             if (poller.count_steps(curves[i].size())) throw Stopped();
         }
@@ -221,15 +218,16 @@ class Index::State {
         return added;
     }
 
-    void ask(const std::vector<CurveView>* X, const IndexView& view, const SearchOptions& options,
-             Control* control, const nearest::Answer& answer) const {
+    void ask(const std::vector<CurveView>* X, const IndexView& view,
+             const nearest::Question& question, const SearchOptions& options, Control* control,
+             const nearest::Write& write) const {
         Poller poller(control);
         const std::ptrdiff_t workers = runtime::resolve_workers(options.workers);
         curves::check_whole_number("exclusion", options.exclusion, exclusion_range);
-        Queries queries = checked(X, view, poller);
+        Queries queries = checks().queries(X, view, poller);
         queries.exclusion = options.exclusion;
         const SearchRecord record =
-            QueryRun(*targets_, view.seen, queries, answer).run(workers, poller);
+            QueryRun(*targets_, view, queries, question, write).run(workers, poller);
         if (options.rows != nullptr && X == nullptr) {
             *options.rows = indices_of(queries.targets);
         }
@@ -239,62 +237,7 @@ class Index::State {
         options.record->computed += record.computed;
     }
 
-    Queries checked(const std::vector<CurveView>* X, const IndexView& view, Poller& poller) const {
-        Queries queries;
-        if (X == nullptr) {
-            queries.targets = view.targets();
-            for (const std::ptrdiff_t j : queries.targets) {
-                poller.poll_in_loop(static_cast<std::size_t>(j));
-                queries.curves.push_back(targets_->curve(j));
-                // It may have been added behind others.
-                queries.curves.back().name = "curves[" + std::to_string(indices_[j]) + "]";
-            }
-        } else {
-            const CurveList list(*X, "X");
-            check_like_first(list, view);
-            for (std::size_t i = 0; i < X->size(); ++i) {
-                queries.curves.push_back(checked_curve(list[i], list.name_of(i), poller));
-            }
-        }
-        runtime::ScratchVector<std::ptrdiff_t> sizes;
-        for (const CheckedCurve& P : queries.curves) {
-            sizes.push_back(P.curve.size());
-            targets_->check(P, poller);
-        }
-        std::sort(sizes.begin(), sizes.end());
-        sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
-        for (const std::ptrdiff_t n : sizes) {
-            for (const std::ptrdiff_t m : *view.sizes) measure_->check_sizes(n, m);
-        }
-        return queries;
-    }
-
-    CheckedCurve checked_curve(const CurveView& curve, std::string name, Poller& poller) const {
-        return curves::checked_listed(curve, std::move(name), poller,
-                                      measure_->requirements().on_sphere);
-    }
-
-    // The shapes of a list, which must agree with those of the index.
-    void check_like_first(const CurveList& list, const IndexView& view) const {
-        if (view.seen.size == 0) {
-            check_shapes(measure_->requirements(), list);
-        } else {
-            const CurveView first = targets_->curve(0).curve;
-            char name[48];  // not a string, which would allocate
-            std::snprintf(name, sizeof name, "curve %lld of the index",
-                          static_cast<long long>(indices_[0]));
-            check_shapes(measure_->requirements(), {first, name}, list);
-        }
-    }
-
-    static void check_count(std::ptrdiff_t count, std::ptrdiff_t size, bool leaves_itself_out) {
-        const std::ptrdiff_t most = size - (leaves_itself_out ? 1 : 0);
-        if (count >= 1 && count <= most) return;
-        throw std::invalid_argument(
-            "n_neighbors is " + std::to_string(count) + "; give a whole number from 1 to " +
-            std::to_string(most) +
-            (leaves_itself_out ? ", the other curves of the index" : ", the curves of the index"));
-    }
+    nearest::IndexChecks checks() const noexcept { return {*measure_, *targets_, indices_}; }
 
     TargetIndices indices_;
     std::unique_ptr<const pairwise::BatchMeasure> measure_;

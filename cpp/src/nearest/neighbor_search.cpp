@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "nearest/own_count.hpp"
+
 namespace curvewise::nearest {
 namespace {
 
@@ -15,22 +17,6 @@ constexpr std::ptrdiff_t few_leaves = 256;
 
 // What a bound takes, for the poller: some microseconds.
 constexpr std::int64_t bound_effort = 1 << 11;
-
-// A search counts whole pairs, so the computation of a distance must not count them again.
-class OwnCount {
-   public:
-    explicit OwnCount(Poller& poller) noexcept
-        : poller_(poller), was_counting_(poller.set_counting(false)) {}
-    OwnCount(const OwnCount&) = delete;
-    OwnCount(OwnCount&&) = delete;
-    OwnCount& operator=(const OwnCount&) = delete;
-    OwnCount& operator=(OwnCount&&) = delete;
-    ~OwnCount() { poller_.set_counting(was_counting_); }
-
-   private:
-    Poller& poller_;
-    bool was_counting_;
-};
 
 void poll(Poller& poller, std::int64_t effort) {
     if (poller.count_steps(effort)) throw Stopped();
@@ -70,6 +56,7 @@ std::ptrdiff_t NeighborSearch::planted() const noexcept {
 void NeighborSearch::bound(TargetQuery& query, std::ptrdiff_t first, std::ptrdiff_t end) {
     quick_.resize(static_cast<std::size_t>(std::max(end - first, BoundTree::leaf_rows)));
     query.quick(first, end - first, quick_.data());
+    first_bounds_ += end - first;
 }
 
 std::ptrdiff_t NeighborSearch::all_leaves() const noexcept {
@@ -91,6 +78,7 @@ void NeighborSearch::for_targets(const OpenLeaf& leaf, Use use) const {
 
 void NeighborSearch::bound(TargetQuery& query, const OpenLeaf& leaf) {
     query.quick(trees()[static_cast<std::size_t>(leaf.tree)].first, held(leaf), quick_.data());
+    first_bounds_ += held(leaf).count;
 }
 
 NeighborSearch::BoxBounds NeighborSearch::bounds_of(TargetQuery& query, const BoundTree& tree,
@@ -100,16 +88,26 @@ NeighborSearch::BoxBounds NeighborSearch::bounds_of(TargetQuery& query, const Bo
     return boxes;
 }
 
-runtime::ScratchVector<Neighbor> NeighborSearch::nearest(TargetQuery& query, std::int64_t all_steps,
-                                                         std::ptrdiff_t count_wanted,
+runtime::ScratchVector<Neighbor>& NeighborSearch::answer(TargetQuery& query, std::int64_t all_steps,
+                                                         const Question& question,
                                                          LeftOut left_out) {
     const OwnCount own_count(poller_);
     counted_ = 0;
-    most_ = static_cast<std::size_t>(count_wanted);
+    first_bounds_ = 0;
     leave_out(left_out);
-    best_.clear();
-    heap_.clear();
+    found_.begin(question);
     leaves_.clear();
+    if (question.count > 0) {
+        find_nearest(query);
+    } else {
+        find_within(query, question);
+    }
+    count(poller_, all_steps - counted_);
+    return found_.sorted();
+}
+
+void NeighborSearch::find_nearest(TargetQuery& query) {
+    heap_.clear();
     most_leaves_ = static_cast<std::size_t>(std::max(few_leaves, all_leaves() / 8));
     for (std::size_t t = 0; t < trees().size(); ++t) {
         push_boxes(query, static_cast<int>(t), trees()[t].tree->levels() - 1, 0);
@@ -130,9 +128,6 @@ runtime::ScratchVector<Neighbor> NeighborSearch::nearest(TargetQuery& query, std
             look_at(query, candidate);
         }
     }
-    count(poller_, all_steps - counted_);
-    std::sort(best_.begin(), best_.end(), is_nearer);
-    return best_;
 }
 
 void NeighborSearch::leave_out(LeftOut targets) noexcept {
@@ -198,21 +193,15 @@ void NeighborSearch::look_at(TargetQuery& query, Candidate candidate) {
         if (candidate.bound > cutoff()) return finish_pair(query, candidate.target);
         if (!heap_.empty() && ComesLater()(candidate, heap_.front())) return push(candidate);
     }
-    keep_if_near({candidate.target, value(query, candidate.target, cutoff())});
+    found_.keep({candidate.target, value(query, candidate.target, cutoff())});
     finish_pair(query, candidate.target);
 }
 
-runtime::ScratchVector<Neighbor> NeighborSearch::within(TargetQuery& query, std::int64_t all_steps,
-                                                        double radius, bool with_distances,
-                                                        LeftOut left_out) {
-    const OwnCount own_count(poller_);
-    counted_ = 0;
-    leave_out(left_out);
-    runtime::ScratchVector<Neighbor> found;
+void NeighborSearch::find_within(TargetQuery& query, const Question& question) {
+    const double radius = question.radius;
     const auto look_at = [&](std::ptrdiff_t target) {
-        if (is_wanted(target)) look_within(query, target, radius, with_distances, found);
+        if (is_wanted(target)) look_within(query, target, question);
     };
-    leaves_.clear();
     const std::ptrdiff_t half = all_leaves() / 2;
     most_leaves_ = static_cast<std::size_t>(std::max(std::min(few_leaves, half), half / 4));
     for (std::size_t t = 0; t < trees().size(); ++t) {
@@ -227,8 +216,6 @@ runtime::ScratchVector<Neighbor> NeighborSearch::within(TargetQuery& query, std:
     for (std::ptrdiff_t j = first; j < seen_.size; ++j) {
         if (!(quick_[static_cast<std::size_t>(j - first)] > radius)) look_at(j);
     }
-    count(poller_, all_steps - counted_);
-    return found;
 }
 
 // In the order of the targets, which trees do not have.
@@ -264,17 +251,13 @@ void NeighborSearch::find_leaves(TargetQuery& query, int tree, int level, std::p
     }
 }
 
-void NeighborSearch::look_within(TargetQuery& query, std::ptrdiff_t target, double radius,
-                                 bool with_distances, runtime::ScratchVector<Neighbor>& found) {
+void NeighborSearch::look_within(TargetQuery& query, std::ptrdiff_t target,
+                                 const Question& question) {
     const int levels = query.levels();
     if (levels > 1) ++record_.refined;
     int level = 1;
-    while (level < levels && !(refined(query, target, level) > radius)) ++level;
-    if (level >= levels) {
-        const std::optional<double> distance =
-            distance_within(query, target, radius, with_distances);
-        if (distance) found.push_back({target, *distance});
-    }
+    while (level < levels && !(refined(query, target, level) > question.radius)) ++level;
+    if (level >= levels) found_.keep({target, distance_within(query, target, question)});
     finish_pair(query, target);
 }
 
@@ -290,32 +273,13 @@ double NeighborSearch::value(TargetQuery& query, std::ptrdiff_t target, double c
     return distance;
 }
 
-std::optional<double> NeighborSearch::distance_within(TargetQuery& query, std::ptrdiff_t target,
-                                                      double radius, bool is_wanted) {
-    if (is_wanted) {
-        const double distance = value(query, target, radius);
-        return distance <= radius ? std::optional<double>(distance) : std::nullopt;
-    }
+double NeighborSearch::distance_within(TargetQuery& query, std::ptrdiff_t target,
+                                       const Question& question) {
+    if (question.with_distances) return value(query, target, question.radius);
     ++record_.computed;
-    const bool is_within = query.is_within(target, {radius, 1, poller_, *memory_});
+    const bool is_within = query.is_within(target, {question.radius, 1, poller_, *memory_});
     poll(poller_, query.steps(target));
-    return is_within ? std::optional<double>(std::numeric_limits<double>::quiet_NaN())
-                     : std::nullopt;
-}
-
-void NeighborSearch::keep_if_near(const Neighbor& found) {
-    if (best_.size() == most_) {
-        if (!is_nearer(found, best_.front())) return;
-        std::pop_heap(best_.begin(), best_.end(), is_nearer);
-        best_.pop_back();
-    }
-    best_.push_back(found);
-    std::push_heap(best_.begin(), best_.end(), is_nearer);
-}
-
-double NeighborSearch::cutoff() const noexcept {
-    if (best_.size() < most_ || std::isnan(best_.front().distance)) return infinity;
-    return best_.front().distance;
+    return is_within ? -infinity : std::numeric_limits<double>::quiet_NaN();
 }
 
 void NeighborSearch::finish_pair(TargetQuery& query, std::ptrdiff_t target) {

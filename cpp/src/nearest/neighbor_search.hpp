@@ -13,11 +13,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "curvewise/nearest.hpp"
+#include "nearest/found_neighbors.hpp"
+#include "nearest/left_out.hpp"
 #include "pairwise/targets.hpp"
 #include "runtime/poller.hpp"
 #include "runtime/scratch.hpp"
@@ -29,31 +30,20 @@ using pairwise::BoundTree;
 using pairwise::TargetQuery;
 using runtime::Poller;
 
-// Targets that a search skips, from the first to the last; by default none.
-struct LeftOut {
-    std::ptrdiff_t first = 0;
-    std::ptrdiff_t last = -1;
-
-    bool has(std::ptrdiff_t target) const noexcept { return target >= first && target <= last; }
-};
-
-// Smaller distances first, then smaller indices; NaN distances last.
-bool is_nearer(const Neighbor& a, const Neighbor& b) noexcept;
-
 class NeighborSearch {
    public:
     // Of the targets that are seen. Throws Stopped where the poller says so.
     NeighborSearch(const pairwise::Targets& targets, const pairwise::Seen& seen, Poller& poller);
 
-    // The `count` nearest, in order, or all there are. Counts `all_steps` as done.
-    runtime::ScratchVector<Neighbor> nearest(TargetQuery& query, std::int64_t all_steps,
-                                             std::ptrdiff_t count, LeftOut left_out);
-    // All within `radius`, by index; the distances are nan where they are not wanted.
-    runtime::ScratchVector<Neighbor> within(TargetQuery& query, std::int64_t all_steps,
-                                            double radius, bool with_distances, LeftOut left_out);
+    // The nearest, in order, or all within a radius, by index. Counts `all_steps` as done.
+    runtime::ScratchVector<Neighbor>& answer(TargetQuery& query, std::int64_t all_steps,
+                                             const Question& question, LeftOut left_out);
 
     // The counts since the last call.
     SearchRecord take_record() noexcept { return std::exchange(record_, {}); }
+
+    // How many first bounds were computed for the last query.
+    std::ptrdiff_t first_bounds() const noexcept { return first_bounds_; }
 
    private:
     struct Candidate {
@@ -76,6 +66,8 @@ class NeighborSearch {
     bool is_wanted(std::ptrdiff_t target) const noexcept {
         return !left_out_.has(target) && seen_.has(target);
     }
+    void find_nearest(TargetQuery& query);
+    void find_within(TargetQuery& query, const Question& question);
     // Also counts the pairs of the query.
     void leave_out(LeftOut targets) noexcept;
     void push(const Candidate& candidate);
@@ -97,9 +89,8 @@ class NeighborSearch {
     // Calls look_at(target) for the targets in leaves_ whose first bounds are within the radius.
     template <class LookAt>
     void for_marked_within(TargetQuery& query, double radius, LookAt look_at);
-    // Adds a target whose first bound is within the radius to `found`, if it is, too.
-    void look_within(TargetQuery& query, std::ptrdiff_t target, double radius, bool with_distances,
-                     runtime::ScratchVector<Neighbor>& found);
+    // Keeps a target whose first bound is within the radius, if it is, too.
+    void look_within(TargetQuery& query, std::ptrdiff_t target, const Question& question);
     // Writes the first bounds of targets, or of those in a leaf, to quick_.
     void bound(TargetQuery& query, std::ptrdiff_t first, std::ptrdiff_t end);
     void bound(TargetQuery& query, const OpenLeaf& leaf);
@@ -118,14 +109,12 @@ class NeighborSearch {
         return (marks_[static_cast<std::size_t>(target / 64)] >> (target % 64) & 1) != 0;
     }
     const std::vector<BoundForest::Planted>& trees() const noexcept;
-    // The distance, or nan where it is not wanted, of a target that is within the radius.
-    std::optional<double> distance_within(TargetQuery& query, std::ptrdiff_t target, double radius,
-                                          bool is_wanted);
+    // The distance, which may be any within the radius where it is not wanted.
+    double distance_within(TargetQuery& query, std::ptrdiff_t target, const Question& question);
     double value(TargetQuery& query, std::ptrdiff_t target, double cutoff);
     double refined(TargetQuery& query, std::ptrdiff_t target, int level);
-    void keep_if_near(const Neighbor& found);
     // A distance above it is of no interest.
-    double cutoff() const noexcept;
+    double cutoff() const noexcept { return found_.cutoff(); }
     void finish_pair(TargetQuery& query, std::ptrdiff_t target);
 
     pairwise::Seen seen_;
@@ -137,9 +126,9 @@ class NeighborSearch {
     runtime::ScratchVector<OpenLeaf> leaves_;
     std::size_t most_leaves_ = 0;
     LeftOut left_out_;
-    runtime::ScratchVector<Neighbor> best_;  // a heap with the furthest on top
-    std::size_t most_ = 0;
+    FoundNeighbors found_;
     std::int64_t counted_ = 0;
+    std::ptrdiff_t first_bounds_ = 0;
     SearchRecord record_;
 };
 

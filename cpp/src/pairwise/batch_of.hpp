@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pairwise/batch.hpp"
+#include "pairwise/beside_of.hpp"
 #include "pairwise/bounded.hpp"
 #include "pairwise/measure.hpp"
 #include "pairwise/targets_of.hpp"
@@ -18,43 +19,6 @@
 #include "runtime/workers.hpp"
 
 namespace curvewise::pairwise {
-
-// Replaces M::Beside: every pair by itself.
-template <class M>
-struct NothingBeside {
-    static std::ptrdiff_t most(const M& /*measure*/, std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/,
-                               std::ptrdiff_t /*dim*/) noexcept {
-        return 1;
-    }
-    static std::ptrdiff_t gather(const M& /*measure*/,
-                                 const typename M::PreparedQ* const* /*curves*/,
-                                 std::ptrdiff_t /*count*/, bool /*has_cutoff*/) noexcept {
-        return 0;
-    }
-    static bool values(const M& /*measure*/, const typename M::PreparedP& /*P*/,
-                       std::ptrdiff_t /*first*/, double* /*out*/, Poller& /*poller*/) noexcept {
-        return false;
-    }
-    static std::ptrdiff_t candidates(const M& /*measure*/, double /*cutoff*/,
-                                     const typename M::PreparedP& /*P*/, std::ptrdiff_t /*first*/,
-                                     std::ptrdiff_t* /*places*/, Poller& /*poller*/) noexcept {
-        return -1;
-    }
-    static bool pair_values(const M& /*measure*/, const typename M::PreparedP* const* /*Ps*/,
-                            const typename M::PreparedQ* const* /*Qs*/, std::ptrdiff_t /*count*/,
-                            double* /*out*/, Poller& /*poller*/) noexcept {
-        return false;
-    }
-};
-
-template <class M, class = void>
-struct BesideOf {
-    using type = NothingBeside<M>;
-};
-template <class M>
-struct BesideOf<M, std::void_t<typename M::Beside>> {
-    using type = typename M::Beside;
-};
 
 template <class M>
 class BatchOf final : public BatchMeasure {
@@ -165,36 +129,26 @@ class BatchOf final : public BatchMeasure {
         std::ptrdiff_t gather(const std::ptrdiff_t* columns, std::ptrdiff_t count,
                               const PairCall& call) const override {
             auto& own = static_cast<OwnMemory&>(call.memory);
-            own.gathered.clear();
-            for (std::ptrdiff_t k = 0; k < count; ++k) {
-                own.gathered.push_back(&columns_[static_cast<std::size_t>(columns[k])]);
-            }
             const bool has_cutoff = call.cutoff < std::numeric_limits<double>::infinity();
-            return own.beside.gather(measure_, own.gathered.data(), count, has_cutoff);
+            return own.beside.gather(measure_, columns_, columns, count, has_cutoff);
         }
         bool values(std::ptrdiff_t i, std::ptrdiff_t first, double* out,
                     const PairCall& call) const override {
             return static_cast<OwnMemory&>(call.memory)
-                .beside.values(measure_, rows_[static_cast<std::size_t>(i)], first, out,
-                               call.poller);
+                .beside.columns()
+                .values(measure_, rows_[static_cast<std::size_t>(i)], first, out, call.poller);
         }
         std::ptrdiff_t candidates(std::ptrdiff_t i, std::ptrdiff_t first, std::ptrdiff_t* places,
                                   const PairCall& call) const override {
             return static_cast<OwnMemory&>(call.memory)
-                .beside.candidates(measure_, call.cutoff, rows_[static_cast<std::size_t>(i)], first,
-                                   places, call.poller);
+                .beside.columns()
+                .candidates(measure_, call.cutoff, rows_[static_cast<std::size_t>(i)], first,
+                            places, call.poller);
         }
         bool pair_values(const std::pair<std::ptrdiff_t, std::ptrdiff_t>* pairs,
                          std::ptrdiff_t count, double* out, const PairCall& call) const override {
-            auto& own = static_cast<OwnMemory&>(call.memory);
-            own.gathered_rows.clear();
-            own.gathered.clear();
-            for (std::ptrdiff_t k = 0; k < count; ++k) {
-                own.gathered_rows.push_back(&rows_[static_cast<std::size_t>(pairs[k].first)]);
-                own.gathered.push_back(&columns_[static_cast<std::size_t>(pairs[k].second)]);
-            }
-            return own.pairs.pair_values(measure_, own.gathered_rows.data(), own.gathered.data(),
-                                         count, out, call.poller);
+            return static_cast<OwnMemory&>(call.memory)
+                .beside.values(measure_, rows_, columns_, pairs, count, out, call.poller);
         }
 
        private:
@@ -202,10 +156,7 @@ class BatchOf final : public BatchMeasure {
         using Bounds = typename BoundsOf<M>::type;
         struct OwnMemory final : ThreadMemory {
             Memory content;
-            Beside beside;
-            Beside pairs;
-            runtime::ScratchVector<const PreparedP*> gathered_rows;
-            runtime::ScratchVector<const PreparedQ*> gathered;
+            PairsBeside<M> beside;
             std::optional<typename Bounds::Query> query;
             std::ptrdiff_t query_of = -1;
             Trial trial;

@@ -24,6 +24,10 @@ bool is_above(Query& query, std::ptrdiff_t j, const PreparedQ& Q, double cutoff,
 // Whether tests pay. Where few of them do, only some are made, so that they cost next to nothing.
 class Trial {
    public:
+    Trial() = default;
+    // With less credit in the beginning, and a longer first rest.
+    Trial(int credit, int first_rest) noexcept : credit_(credit), first_rest_(first_rest) {}
+
     bool is_due() noexcept {
         if (resting_ == 0) return true;
         --resting_;
@@ -34,7 +38,7 @@ class Trial {
         if (has_paid) rest_ = 0;
         if (credit_ >= 0) return;
         credit_ = 0;
-        rest_ = std::min(2 * rest_ + 1, longest_rest);
+        rest_ = std::min(rest_ == 0 ? first_rest_ : 2 * rest_ + 1, longest_rest);
         resting_ = rest_;
     }
 
@@ -45,6 +49,7 @@ class Trial {
     static constexpr int longest_rest = 63;
 
     int credit_ = most_credit / 2;
+    int first_rest_ = 1;
     int rest_ = 0;
     int resting_ = 0;
 };

@@ -63,6 +63,7 @@
 //   M::Beside                          several Qs, and the memory of one thread
 //     most(measure, n, m, dim)         of how many Qs of m points, with Ps of n points; 1 where
 //                                      one by one is as fast
+//     effort(measure, n, m, dim)       the cost of a pair
 //     gather(measure, Qs, count, has_cutoff)
 //                                      takes the first of the Qs, given as pointers, the longest
 //                                      first; returns how many, 0 where the first is not for this
@@ -73,6 +74,10 @@
 //                                      writes the places, from `first` on, of Qs whose values may
 //                                      be at most the cutoff, and returns how many; counts the
 //                                      steps of the others; -1 if all are computed in less time
+//     bounds(measure, cutoff, prepared_p, out, poller)
+//                                      writes a lower bound of the value of each Q, or of one that
+//                                      is above the cutoff some bound that is, too; false, and
+//                                      nothing done, if a curve lacks one
 //     pair_values(measure, Ps, Qs, count, out, poller)
 //                                      the same as values() for pairs, given as pointers; all Ps
 //                                      have as many points as each other, and so have the Qs

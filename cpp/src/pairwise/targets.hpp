@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "curves/checks.hpp"
+#include "pairwise/beside_effort.hpp"
 #include "pairwise/bound_tree.hpp"
 #include "pairwise/pair_run.hpp"
 #include "pairwise/stored_curve.hpp"
@@ -43,6 +45,39 @@ class TargetQuery : public runtime::InScratch {
     virtual bool is_within(std::ptrdiff_t j, const PairCall& call) = 0;
     // The nominal steps of the pair with target j.
     virtual std::int64_t steps(std::ptrdiff_t j) const noexcept = 0;
+};
+
+// Rows of queries and columns of targets. Several pairs are computed at once, in less time than one
+// by one. For one thread.
+class TargetBlock : public runtime::InScratch {
+   public:
+    TargetBlock() = default;
+    TargetBlock(const TargetBlock&) = delete;
+    TargetBlock(TargetBlock&&) = delete;
+    TargetBlock& operator=(const TargetBlock&) = delete;
+    TargetBlock& operator=(TargetBlock&&) = delete;
+    virtual ~TargetBlock() = default;
+
+    // Replaces the rows, or the columns. The curves must outlive them.
+    virtual void set_rows(const CheckedCurve* const* queries, std::ptrdiff_t count,
+                          Poller& poller) = 0;
+    virtual void set_columns(const std::ptrdiff_t* targets, std::ptrdiff_t count) = 0;
+    // Takes the first of these columns, which have the same number of points, and returns their
+    // number: 0 if they are not for this.
+    virtual std::ptrdiff_t gather(const std::ptrdiff_t* columns, std::ptrdiff_t count) = 0;
+    // Writes a lower bound of the value of a row and each column taken; one above the cutoff may be
+    // any other that is. Returns false, and does nothing, if a curve lacks one.
+    virtual bool bounds(std::ptrdiff_t row, double cutoff, double* out, Poller& poller) = 0;
+    // Writes the values of a row and the columns taken. Returns false, and does nothing, where the
+    // row is not for this.
+    virtual bool values(std::ptrdiff_t row, double* out, Poller& poller) = 0;
+    // The same for pairs of a row and a column. All rows have the same number of points, and so
+    // have all columns.
+    virtual bool pair_values(const std::pair<std::ptrdiff_t, std::ptrdiff_t>* pairs,
+                             std::ptrdiff_t count, double* out, Poller& poller) = 0;
+    // One by itself.
+    virtual double value(std::ptrdiff_t row, std::ptrdiff_t column, double cutoff,
+                         Poller& poller) = 0;
 };
 
 // The targets that a call sees: those of the first `size` that are not removed. Others may be added
@@ -114,6 +149,12 @@ class Targets {
     // The nominal steps of a P of n points with all that are seen.
     virtual std::int64_t steps(std::ptrdiff_t n, const Seen& seen) const noexcept = 0;
     virtual std::unique_ptr<ThreadMemory> make_memory() const = 0;
+    // How many pairs of n and m points are computed at once; 1 where one by one is as fast.
+    virtual std::ptrdiff_t most_beside(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept = 0;
+    // The cost of pairs that are computed several at a time.
+    virtual BesideEffort effort_beside(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept = 0;
+    // Null where all pairs are computed one by one.
+    virtual std::unique_ptr<TargetBlock> make_block() const = 0;
 };
 
 }  // namespace curvewise::pairwise

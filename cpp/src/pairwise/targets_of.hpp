@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "curves/owned_curve.hpp"
+#include "pairwise/block_of.hpp"
 #include "pairwise/measure.hpp"
 #include "pairwise/stored_curve.hpp"
 #include "pairwise/targets.hpp"
@@ -183,6 +184,19 @@ class TargetsOf final : public Targets {
     }
     std::unique_ptr<ThreadMemory> make_memory() const override {
         return std::make_unique<OwnMemory>();
+    }
+    std::ptrdiff_t most_beside(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept override {
+        return on_sphere_ ? 1 : BesideOf<M>::type::most(measure_, n, m, dim_);
+    }
+    BesideEffort effort_beside(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept override {
+        return BesideOf<M>::type::effort(measure_, n, m, dim_);
+    }
+    std::unique_ptr<TargetBlock> make_block() const override {
+        if constexpr (has_beside<M>) {
+            return std::make_unique<BlockOf<M>>(measure_, curves_, dim_);
+        } else {
+            return nullptr;
+        }
     }
 
    private:

@@ -16,23 +16,6 @@ kernels::Cost cost_of(const WarpingOptions& options, std::ptrdiff_t dim, bool in
     return {canonical_metric(options.ground, dim), in_domain, options.ground.own != nullptr};
 }
 
-// The root of the table's values, and the kernel, null for what is swept one by one.
-struct Sweep {
-    Sweep(const WarpingOptions& options, std::ptrdiff_t dim, bool in_domain) noexcept {
-        kernels::Cost cost = cost_of(options, dim, in_domain);
-        if (options.rule == kernels::Rule::frechet && !cost.is_own) {
-            root = put_off_root(cost, options.ground);
-        }
-        if (options.open_begin || options.open_end || takes_degrees(options.ground.metric)) {
-            return;
-        }
-        functions = active_level().kernels->beside(options.rule, cost, dim);
-    }
-
-    PutOffRoot root;
-    kernels::BesideKernels functions;
-};
-
 // Writes the curves that curve(lane) gives, of at most `size` points, to `lanes` lanes. What a lane
 // has beyond its curve's end is 0.
 template <class Curve>
@@ -80,7 +63,8 @@ std::ptrdiff_t lanes_beside() noexcept {
 std::ptrdiff_t cells_of_row(const Window& window, std::ptrdiff_t n, std::ptrdiff_t m) noexcept {
     const std::optional<std::ptrdiff_t> radius = window.between(n, m);
     if (!radius || n < 2 || m < 2 || *radius >= std::max(n, m)) return m;
-    return std::min(m, 2 * (*radius * (std::max(n, m) - 1) / (n - 1)) + 1);
+    const std::ptrdiff_t reach = n >= m ? *radius : *radius * (m - 1) / (n - 1);
+    return std::min(m, 2 * reach + 1);
 }
 
 // Whether so many pairs of n and m points take less time together than one by one.
@@ -104,10 +88,44 @@ std::ptrdiff_t most_candidates(const WarpingOptions& options, std::ptrdiff_t n, 
 
 }  // namespace
 
+// The root of the table's values, and the kernels, null for pairs that are swept one by one.
+struct CurvesBeside::Sweep {
+    Sweep(const WarpingOptions& options, std::ptrdiff_t dim, bool in_domain) noexcept {
+        kernels::Cost cost = cost_of(options, dim, in_domain);
+        if (options.rule == kernels::Rule::frechet && !cost.is_own) {
+            root = put_off_root(cost, options.ground);
+        }
+        if (options.open_begin || options.open_end || takes_degrees(options.ground.metric)) {
+            return;
+        }
+        functions = active_level().kernels->beside(options.rule, cost, dim);
+    }
+
+    PutOffRoot root;
+    kernels::BesideKernels functions;
+};
+
+CurvesBeside::Sweep CurvesBeside::sweep_with(const WarpingOptions& options,
+                                             const P& curve) const noexcept {
+    return {options, dim_, squares_are_in_domain_ && curve.packed.squares_are_in_domain()};
+}
+
 std::ptrdiff_t CurvesBeside::most(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m,
                                   std::ptrdiff_t dim) noexcept {
     if (Sweep(options, dim, true).functions.sweep == nullptr) return 1;
     return saves_time(options, n, m, dim, lanes_beside()) ? lanes_beside() : 1;
+}
+
+pairwise::BesideEffort CurvesBeside::effort(const WarpingOptions& options, std::ptrdiff_t n,
+                                            std::ptrdiff_t m, std::ptrdiff_t dim) noexcept {
+    const std::ptrdiff_t points = (n + m) * dim;
+    const std::ptrdiff_t table = n * cells_of_row(options.window, n, m) * dim;
+    pairwise::BesideEffort effort;
+    effort.value = static_cast<double>(table);
+    effort.bound = static_cast<double>((m + 30) * dim);
+    effort.candidate = static_cast<double>(table + table / 3 + 3 * points + 60);
+    effort.is_large = table > 9000 + 12 * points;
+    return effort;
 }
 
 std::ptrdiff_t CurvesBeside::gather(const WarpingOptions& options, const Q* const* curves,
@@ -160,8 +178,7 @@ bool CurvesBeside::distances(const WarpingOptions& options, const P& curve, std:
         !saves_time(options, n, columns_, dim_, count_ - first)) {
         return false;
     }
-    const Sweep sweep(options, dim_,
-                      squares_are_in_domain_ && curve.packed.squares_are_in_domain());
+    const Sweep sweep = sweep_with(options, curve);
     if (sweep.functions.sweep == nullptr) return false;
     limit_rows(options, n);
     const std::ptrdiff_t width = active_level().kernels->lanes;
@@ -246,22 +263,13 @@ void CurvesBeside::enclose(const WarpingOptions& options, const PackedCurve& cur
     }
 }
 
-std::ptrdiff_t CurvesBeside::candidates(const WarpingOptions& options, double cutoff,
-                                        const P& curve, std::ptrdiff_t first,
-                                        std::ptrdiff_t* places, Poller& poller) {
-    const std::ptrdiff_t n = curve.packed.size(), count = count_ - first;
+// In the unit of the table.
+void CurvesBeside::bound_lanes(const WarpingOptions& options, const Sweep& sweep, const P& curve,
+                               double most, std::ptrdiff_t first, double* bounds) {
+    const std::ptrdiff_t n = curve.packed.size();
     const std::ptrdiff_t fewest = sizes_[static_cast<std::size_t>(count_ - 1)];
-    const std::ptrdiff_t most = most_candidates(options, n, columns_, dim_, count);
-    if (most < 0 || fewest < 2 || !needs_no_scale(options, curve.checked)) return -1;
-    const Sweep sweep(options, dim_,
-                      squares_are_in_domain_ && curve.packed.squares_are_in_domain());
-    if (sweep.functions.bounds == nullptr) return -1;
-    const double divisor = options.divisor(n, columns_);
-    const double limit =
-        sweep.root.most_under(undivided(std::min(cutoff, options.cutoff), divisor));
     const std::ptrdiff_t width = active_level().kernels->lanes;
     const std::ptrdiff_t skipped = first / width * width;
-    double bounds[most_lanes];
     kernels::BoundsBeside beside{};
     beside.p = curve.packed.data();
     beside.p_stride = curve.packed.stride();
@@ -271,17 +279,37 @@ std::ptrdiff_t CurvesBeside::candidates(const WarpingOptions& options, double cu
     beside.columns = fewest;
     beside.has_last = fewest == columns_;
     beside.packs = (count_ - skipped + width - 1) / width;
-    beside.most = limit;
+    beside.most = most;
     beside.bounds = bounds + skipped;
     enclose(options, curve.packed, beside);
     sweep.functions.bounds(beside);
     // Sums in another order than the table's have a slack, the largest of some distances has none.
-    const bool is_sum = options.rule != kernels::Rule::frechet;
-    const double slack = is_sum ? CostSums::slack(n, columns_) : 1.0;
+    if (options.rule == kernels::Rule::frechet) return;
+    const double slack = CostSums::slack(n, columns_);
+    for (std::ptrdiff_t lane = first; lane < count_; ++lane) bounds[lane] *= slack;
+}
+
+bool CurvesBeside::may_be_bounded(const WarpingOptions& options, const P& curve) const noexcept {
+    return sizes_[static_cast<std::size_t>(count_ - 1)] >= 2 &&
+           needs_no_scale(options, curve.checked);
+}
+
+std::ptrdiff_t CurvesBeside::candidates(const WarpingOptions& options, double cutoff,
+                                        const P& curve, std::ptrdiff_t first,
+                                        std::ptrdiff_t* places, Poller& poller) {
+    const std::ptrdiff_t n = curve.packed.size(), count = count_ - first;
+    const std::ptrdiff_t most = most_candidates(options, n, columns_, dim_, count);
+    if (most < 0 || !may_be_bounded(options, curve)) return -1;
+    const Sweep sweep = sweep_with(options, curve);
+    if (sweep.functions.bounds == nullptr) return -1;
+    const double limit = sweep.root.most_under(
+        undivided(std::min(cutoff, options.cutoff), options.divisor(n, columns_)));
+    double bounds[most_lanes];
+    bound_lanes(options, sweep, curve, limit, first, bounds);
     std::ptrdiff_t found = 0;
     std::int64_t points = 0;  // of the others
     for (std::ptrdiff_t lane = first; lane < count_; ++lane) {
-        const bool is_above = bounds[lane] * slack > limit;
+        const bool is_above = bounds[lane] > limit;
         places[found] = lane - first;
         found += is_above ? 0 : 1;
         points += is_above ? sizes_[static_cast<std::size_t>(lane)] : 0;
@@ -290,6 +318,24 @@ std::ptrdiff_t CurvesBeside::candidates(const WarpingOptions& options, double cu
     if (found > most) return -1;
     if (poller.count_steps(n * points, 0)) throw Stopped();
     return found;
+}
+
+bool CurvesBeside::bounds(const WarpingOptions& options, double cutoff, const P& curve, double* out,
+                          Poller& poller) {
+    const std::ptrdiff_t n = curve.packed.size();
+    if (!may_be_bounded(options, curve)) return false;
+    const Sweep sweep = sweep_with(options, curve);
+    if (sweep.functions.bounds == nullptr) return false;
+    const double limit = sweep.root.most_under(
+        undivided(std::min(cutoff, options.cutoff), options.divisor(n, columns_)));
+    double bounds[most_lanes];
+    bound_lanes(options, sweep, curve, limit, 0, bounds);
+    for (std::ptrdiff_t lane = 0; lane < count_; ++lane) {
+        const double divisor = options.divisor(n, sizes_[static_cast<std::size_t>(lane)]);
+        out[lane] = sweep.root(bounds[lane]) / divisor;
+    }
+    poller.spend(columns_ * count_);
+    return true;
 }
 
 }  // namespace curvewise::warping

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 
+#include "pairwise/beside_effort.hpp"
 #include "runtime/aligned_buffer.hpp"
 #include "runtime/scratch.hpp"
 #include "warping/kernels/beside.hpp"
@@ -28,8 +29,12 @@ class CurvesBeside {
     static std::ptrdiff_t most(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m,
                                std::ptrdiff_t dim) noexcept;
 
-    // Takes the first of these curves, of which none has fewer points than the next. Returns their
-    // number, 0 where the first one is not for this. Takes more if there is a cutoff, for
+    // By measurement.
+    static pairwise::BesideEffort effort(const WarpingOptions& options, std::ptrdiff_t n,
+                                         std::ptrdiff_t m, std::ptrdiff_t dim) noexcept;
+
+    // Takes the first of these curves, which are ordered by their points, the most first. Returns
+    // their number, 0 where the first one is not for this. Takes more if there is a cutoff, for
     // candidates().
     std::ptrdiff_t gather(const WarpingOptions& options, const Q* const* curves,
                           std::ptrdiff_t count, bool has_cutoff);
@@ -47,10 +52,21 @@ class CurvesBeside {
     // room for all. Returns -1 if it is faster to compute all distances.
     std::ptrdiff_t candidates(const WarpingOptions& options, double cutoff, const P& curve,
                               std::ptrdiff_t first, std::ptrdiff_t* places, Poller& poller);
+    // Writes a lower bound of the distance of P and each curve. One above `cutoff` may be any other
+    // that is. Returns false if P, or one of the curves, lacks a bound.
+    bool bounds(const WarpingOptions& options, double cutoff, const P& curve, double* out,
+                Poller& poller);
 
    private:
     static constexpr std::ptrdiff_t most_lanes = 32;
+    struct Sweep;
 
+    Sweep sweep_with(const WarpingOptions& options, const P& curve) const noexcept;
+    bool may_be_bounded(const WarpingOptions& options, const P& curve) const noexcept;
+    // Writes the bound of lane l, in the unit of the table, to bounds[l], from lane `first` on. One
+    // above `most` may be any other that is.
+    void bound_lanes(const WarpingOptions& options, const Sweep& sweep, const P& curve, double most,
+                     std::ptrdiff_t first, double* bounds);
     void limit_rows(const WarpingOptions& options, std::ptrdiff_t n);
     // Writes the values of the last row that count.
     void finish(const WarpingOptions& options, const PutOffRoot& root, std::ptrdiff_t n,

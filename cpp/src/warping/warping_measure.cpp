@@ -100,6 +100,10 @@ class WarpingMeasure::Beside {
                                std::ptrdiff_t dim) noexcept {
         return warping::CurvesBeside::most(measure.options_, n, m, dim);
     }
+    static pairwise::BesideEffort effort(const WarpingMeasure& measure, std::ptrdiff_t n,
+                                         std::ptrdiff_t m, std::ptrdiff_t dim) noexcept {
+        return warping::CurvesBeside::effort(measure.options_, n, m, dim);
+    }
     std::ptrdiff_t gather(const WarpingMeasure& measure, const PreparedQ* const* curves,
                           std::ptrdiff_t count, bool has_cutoff) {
         return curves_.gather(measure.options_, curves, count, has_cutoff);
@@ -111,6 +115,10 @@ class WarpingMeasure::Beside {
     std::ptrdiff_t candidates(const WarpingMeasure& measure, double cutoff, const PreparedP& P,
                               std::ptrdiff_t first, std::ptrdiff_t* places, Poller& poller) {
         return curves_.candidates(measure.options_, cutoff, P, first, places, poller);
+    }
+    bool bounds(const WarpingMeasure& measure, double cutoff, const PreparedP& P, double* out,
+                Poller& poller) {
+        return curves_.bounds(measure.options_, cutoff, P, out, poller);
     }
     bool pair_values(const WarpingMeasure& measure, const PreparedP* const* Ps,
                      const PreparedQ* const* Qs, std::ptrdiff_t count, double* out,

@@ -238,6 +238,18 @@ bool are_equal(const SearchRecord& a, const SearchRecord& b) {
     return a.pairs == b.pairs && a.refined == b.refined && a.computed == b.computed;
 }
 
+nearest::Question nearest_of(std::ptrdiff_t count) {
+    nearest::Question question;
+    question.count = count;
+    return question;
+}
+
+nearest::Question all_within(double radius) {
+    nearest::Question question;
+    question.radius = radius;
+    return question;
+}
+
 // A search raises and computes the same bounds and distances with trees as without.
 void trees_change_no_count() {
     Random random(23);
@@ -265,13 +277,13 @@ void trees_change_no_count() {
             const CheckedCurve P(curves[static_cast<std::size_t>(i)], "P", poller, on_sphere);
             NeighborSearch search(*targets, seen, poller), linear(*targets, without_trees, poller);
             const auto query = targets->query(P, poller);
-            const auto found = search.nearest(*query, 0, 1 + i, {i, i});
+            const auto found = search.answer(*query, 0, nearest_of(1 + i), {i, i});
             const auto again = targets->query(P, poller);
-            check_equal(found, linear.nearest(*again, 0, 1 + i, {i, i}));
+            check_equal(found, linear.answer(*again, 0, nearest_of(1 + i), {i, i}));
             CHECK(are_equal(search.take_record(), linear.take_record()));
             const double radius = found[static_cast<std::size_t>(i / 2)].distance;
-            check_equal(search.within(*query, 0, radius, true, {}),
-                        linear.within(*again, 0, radius, true, {}));
+            check_equal(search.answer(*query, 0, all_within(radius), {}),
+                        linear.answer(*again, 0, all_within(radius), {}));
             CHECK(are_equal(search.take_record(), linear.take_record()));
         }
     }
@@ -301,11 +313,11 @@ void many_leaves_are_read_in_order() {
     NeighborSearch search(*targets, seen, poller), linear(*targets, without_trees, poller);
     const auto query = targets->query(CheckedCurve(curves[4], "P", poller, false), poller);
     for (const std::ptrdiff_t k : {std::ptrdiff_t{1}, 200 * leaf, 290 * leaf}) {
-        const auto found = search.nearest(*query, 0, k, {4, 4});
-        check_equal(found, linear.nearest(*query, 0, k, {4, 4}));
+        const auto found = search.answer(*query, 0, nearest_of(k), {4, 4});
+        check_equal(found, linear.answer(*query, 0, nearest_of(k), {4, 4}));
         const double radius = found.back().distance;
-        check_equal(search.within(*query, 0, radius, true, {4, 4}),
-                    linear.within(*query, 0, radius, true, {4, 4}));
+        check_equal(search.answer(*query, 0, all_within(radius), {4, 4}),
+                    linear.answer(*query, 0, all_within(radius), {4, 4}));
         CHECK(are_equal(search.take_record(), linear.take_record()));
     }
 }
@@ -370,9 +382,9 @@ void most_bounds_are_left_out() {
         NeighborSearch search(*targets, seen, poller);
         const auto query = targets->query(CheckedCurve(curves[0], "P", poller, false), poller);
         Counted nearest(*query), within(*query);
-        const double radius = search.nearest(nearest, 0, 3, {0, 0}).back().distance;
+        const double radius = search.answer(nearest, 0, nearest_of(3), {0, 0}).back().distance;
         CHECK(nearest.bounds() < 250);
-        CHECK_EQUAL(search.within(within, 0, radius, true, {0, 0}).size(), std::size_t{3});
+        CHECK_EQUAL(search.answer(within, 0, all_within(radius), {0, 0}).size(), std::size_t{3});
         CHECK(within.bounds() < 250);
     }
 }
