@@ -3,8 +3,10 @@
 Each kind of option is drawn `pairs` times: areas of closed curves against every beginning of Q, the
 areas of polygons and of functions of x against fractions, points that are skipped against curves
 without them, relaxed and open ends against the best of all sections, and common parts against all
-sections. Every hundredth pair has sizes across the strips of the kernels. A hundredth of the pairs
-is drawn for the Hausdorff distance of lines, in 40 digits (mpmath). CURVEWISE_ISA chooses the
+sections. Every hundredth pair has sizes across the strips of the kernels. A tenth of the pairs is
+drawn for frechet_continuous of closed curves, against decisions in whole numbers (up to 7 points)
+and against open curves from beginnings that cover all of Q (up to 12 points). A hundredth of the
+pairs is drawn for the Hausdorff distance of lines, in 40 digits (mpmath). CURVEWISE_ISA chooses the
 level. 100,000 pairs take about an hour. Then the script prints times, next to those without the
 option.
 """
@@ -31,7 +33,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python" / "measure
 closed_area = importlib.import_module("test_closed_area")
 function_area = importlib.import_module("test_function_area")
 hausdorff = importlib.import_module("test_hausdorff_continuous")
+closed_continuous = importlib.import_module("test_closed_continuous")
 relaxed = importlib.import_module("test_relax")
+whole_numbers = importlib.import_module("curvewise.reference.frechet_continuous")
 
 Array = npt.NDArray[np.float64]
 Rng = np.random.Generator
@@ -163,6 +167,46 @@ def of_common_parts(rng: Rng) -> bool:
     return near and found.length == expected == sum(edges[found.of_p][: len(P[found.of_p]) - 1])
 
 
+def of_decisions_around(rng: Rng) -> bool:
+    """Compare with decisions in whole numbers, with the value and with the double below it."""
+    P, Q = (C[:7] for C in curves(rng, most=7, dim=int(rng.integers(1, 4))))
+    low, value = curvewise.frechet_continuous(P, Q, closed=True, bounds=True)
+    below = math.nextafter(value, 0.0)
+    suffices = [whole_numbers._leads_around(P, Q, radius) for radius in (below, value)]
+    is_exact = value == 0 or not whole_numbers._leads_around(P, Q, value, strictly=True)
+    return suffices == [value == 0, True] and low == (value if is_exact else below)
+
+
+def of_beginnings_between_points(rng: Rng) -> bool:
+    """Compare with open curves: from where the matching begins, and from places all over Q.
+
+    With another beginning, the distance changes by no more than the way between the two.
+    """
+    size, dim = int(rng.integers(3, 13)), int(rng.integers(1, 4))
+    P, Q = (rng.normal(size=(n, dim)) for n in (size, int(rng.integers(3, 13))))
+    value = curvewise.frechet_continuous(P, Q, closed=True)
+    found = curvewise.frechet_continuous_path(P, Q, closed=True)
+    once = np.concatenate([P, P[:1]])
+
+    def is_within(begin: float, distance: float) -> bool:
+        place = closed_continuous.points_at(np.concatenate([Q, Q[:1]]), np.array([begin]))
+        turned = np.roll(Q, -int(begin) - 1, axis=0)
+        return curvewise.frechet_within(once, np.concatenate([place, turned, place]), distance)
+
+    def is_above(first: float, last: float, way: float) -> bool:
+        """Return whether the distance is above 0.98 of the value from all of a part of an edge."""
+        middle = (first + last) / 2
+        if not is_within(middle, 0.98 * value + way / 2):
+            return True
+        if way < 0.01 * value:
+            return False
+        return is_above(first, middle, way / 2) and is_above(middle, last, way / 2)
+
+    attained = is_within(found.parameters[0, 1] % len(Q), value * (1 + 1e-12))
+    edges = np.linalg.norm(np.roll(Q, -1, axis=0) - Q, axis=1).tolist()
+    return attained and all(is_above(j, j + 1.0 - 1e-15, way) for j, way in enumerate(edges))
+
+
 def of_lines(rng: Rng) -> bool:
     from mpmath import mp
 
@@ -182,6 +226,8 @@ KINDS: dict[str, tuple[Callable[[Rng], bool], float]] = {
     "relax": (of_relaxed_ends, 1.0),
     "open ends": (of_open_ends, 1.0),
     "common_part": (of_common_parts, 1.0),
+    "frechet_continuous, closed, in whole numbers": (of_decisions_around, 0.1),
+    "frechet_continuous, closed, all beginnings": (of_beginnings_between_points, 0.1),
     "hausdorff_continuous, 40 digits": (of_lines, 0.01),
 }
 

@@ -99,8 +99,8 @@ frechet_continuous_part(const CurveView& P, const CurveView& Q,
 /// neither rotations of a curve nor points added on an edge change the value. Exact and symmetric
 /// as frechet_continuous(). Decisions walk through the free-space diagram of P and twice Q, from a
 /// point of its first row to the point one turn behind it (Alt & Godau 1995). Time one walk for
-/// many similar curves; at worst some 60 decisions, each of one walk of O(n m) for each section of
-/// Q that is near one vertex of P. Memory O(n + m).
+/// many similar curves. Otherwise about 20 decisions; most are one walk of O(n m), and a few take
+/// one for each section of Q that is near one vertex of P. Memory O(n + m).
 [[nodiscard]] CURVEWISE_EXPORT double closed_frechet_continuous(
     const CurveView& P, const CurveView& Q, const FrechetContinuousOptions& options = {},
     Control* control = nullptr);

@@ -80,10 +80,15 @@ class EndWalk {
         trail_.forget_from(0);
         trail_.note(0, runs_);
     }
-    void resume(const Trail::Mark& mark) {
+    // The first row may begin elsewhere with another radius.
+    void resume(const Trail::Mark& mark, const Radius& radius) {
         row_ = mark.row;
-        runs_ = mark.runs;
         cells_ = 0;
+        if (row_ > 0) {
+            runs_ = mark.runs;
+        } else {
+            diagram_.start(radius, runs_);
+        }
     }
     // Whether anything is reached of the next row, which the walk then is in.
     bool advance(const Radius& radius) {
@@ -101,7 +106,7 @@ class EndWalk {
     void keep_marks() noexcept { std::swap(marks_, trail_); }
     // Continues from the last mark to the last row that has reachable points.
     void complete_marks(const Radius& radius) {
-        resume(marks_.before(diagram_.rows()));
+        resume(marks_.before(diagram_.rows()), radius);
         while (row_ < diagram_.rows() - 1 && advance(radius)) marks_.note(row_, runs_);
     }
     const Trail& marks() const noexcept { return marks_; }
@@ -133,14 +138,14 @@ class BothEnds {
           q_(Q, range, poller),
           diagram_(diagram),
           back_diagram_({p_.boxed(), q_.boxed(), ExactSigns(p_.view(), q_.view())},
-                        {q_.boxed(), p_.boxed(), ExactSigns(q_.view(), p_.view())}),
+                        {q_.boxed(), p_.boxed(), ExactSigns(q_.view(), p_.view())}, diagram.ends()),
           forth_(diagram_, poller),
           back_(back_diagram_, poller) {}
 
-    // The least double within which the curves are. `low` holds the ends of the curves together.
-    double least_within(double low) {
+    // The least double within which the curves are. `low` holds the ends of the curves together,
+    // and `high` suffices.
+    double least_within(double low, double high = std::numeric_limits<double>::infinity()) {
         if (is_within(low)) return low;
-        double high = std::numeric_limits<double>::infinity();
         std::uint64_t stride = first_stride;
         for (bool is_low_new = true;;) {
             const std::uint64_t width = bits_of(high) - bits_of(low);
@@ -200,22 +205,25 @@ class BothEnds {
         back_.begin(most);
         while (!meets_mark(back_, forth_, most)) back_.advance(most);
         const Trail::Mark& from = forth_.marks().before(last_ - back_.row() - margin_);
-        forth_.resume(from);
+        forth_.resume(from, most);
         while (!meets_mark(forth_, back_, most)) forth_.advance(most);
         const Trail::Mark& to = back_.marks().before(last_ - forth_.row() - margin_);
         margin_ *= 4;
 
         return least_double(low, high, narrow, 1, [&](double x) {
-            forth_.resume(from);
-            back_.resume(to);
-            return walks_meet(radius_of(x), false);
+            const Radius radius = radius_of(x);
+            forth_.resume(from, radius);
+            back_.resume(to, radius);
+            return walks_meet(radius, false);
         });
     }
 
-    // Whether a walk has met the marked runs of the other walk in its row.
+    // Whether a walk has met the marked runs of the other walk in its row. In the last row it has,
+    // since the radius suffices.
     bool meets_mark(const EndWalk<Dim>& walk, const EndWalk<Dim>& other,
                     const Radius& radius) const {
         const std::ptrdiff_t row = last_ - walk.row();
+        if (row == 0) return true;
         const Trail::Mark& mark = other.marks().before(row);
         if (mark.row != row) return false;
         return &walk == &forth_ ? have_met(walk.runs(), mark.runs, radius)

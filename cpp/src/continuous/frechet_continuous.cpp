@@ -74,7 +74,7 @@ class FrechetContinuousMeasure : public pairwise::Distance {
     template <class Use>
     static auto with_search(const PreparedP& P, const PreparedQ& Q, const Call& call, Use use) {
         const bool swap = P.boxed.size() < Q.boxed.size();
-        return with_ordered_search(swap ? Q : P, swap ? P : Q, call, PathEnds::corners, use);
+        return with_ordered_search(swap ? Q : P, swap ? P : Q, call, PathEnds::corners(), use);
     }
     template <class Use>
     static auto with_ordered_search(const PreparedP& first, const PreparedQ& second,
@@ -245,7 +245,7 @@ Matching frechet_continuous_part(const CurveView& P, const CurveView& Q,
         pairwise::with_pair(FrechetContinuousMeasure(options), P, Q, control,
                             [](const auto& p, const auto& q, const auto& call) {
                                 return FrechetContinuousMeasure::with_ordered_search(
-                                    p, q, call, PathEnds::anywhere, [](auto& search) {
+                                    p, q, call, PathEnds::anywhere(), [](auto& search) {
                                         auto [distance, parameters] = search.part();
                                         return Matching{distance, std::move(parameters)};
                                     });

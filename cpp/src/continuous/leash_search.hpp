@@ -58,7 +58,7 @@ class LeashSearch {
     // The curves, and the same boxed and scaled. The first one gives the rows.
     LeashSearch(const CurveView& P, const CurveView& Q, const BoxedCurve& p, const BoxedCurve& q,
                 const RangeScale& range, Poller& poller, LeashMemory& memory,
-                PathEnds ends = PathEnds::corners)
+                PathEnds ends = PathEnds::corners())
         : P_(P),
           Q_(Q),
           range_(range),

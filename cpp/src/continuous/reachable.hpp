@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 #include "continuous/free_space.hpp"
 #include "runtime/scratch.hpp"
@@ -27,15 +28,22 @@ struct Run {
 };
 using Runs = runtime::ScratchVector<Run>;
 
-// Where paths begin and end: in the corners, or anywhere in the first and the last row.
-enum class PathEnds { corners, anywhere };
+// Where paths begin and end: in the corners, or anywhere on the first edges of the first row and
+// the last edges of the last row.
+struct PathEnds {
+    static constexpr PathEnds corners() noexcept { return {0}; }
+    static constexpr PathEnds anywhere() noexcept {
+        return {std::numeric_limits<std::ptrdiff_t>::max()};
+    }
+    std::ptrdiff_t edges;  // 0: the corners
+};
 
 template <int Dim>
 class Diagram {
    public:
     // Row i is compared with the edges of the second curve, column j with the edges of the first.
     Diagram(const EdgeFamily<Dim>& first, const EdgeFamily<Dim>& second,
-            PathEnds ends = PathEnds::corners)
+            PathEnds ends = PathEnds::corners())
         : columns_(first), rows_(second), ends_(ends) {}
 
     std::ptrdiff_t rows() const noexcept { return columns_.vertices(); }
@@ -63,6 +71,7 @@ class Diagram {
         return columns_.free_part(i, j, corner_is_free(i, j, radius),
                                   corner_is_free(i + 1, j, radius), radius);
     }
+    PathEnds ends() const noexcept { return ends_; }
     // The edges of the first curve, seen from columns, and of the second, seen from rows.
     const EdgeFamily<Dim>& first_edges() const noexcept { return columns_; }
     const EdgeFamily<Dim>& second_edges() const noexcept { return rows_; }
@@ -70,7 +79,9 @@ class Diagram {
     // The reachable part of row 0, whose first corner is free if paths begin there.
     void start(const Radius& radius, Runs& runs) const {
         runs.clear();
-        if (ends_ == PathEnds::anywhere) return enter_from_left(-1, 0, cells() - 1, radius, runs);
+        if (ends_.edges > 0) {
+            return enter_from_left(-1, 0, std::min(ends_.edges, cells()) - 1, radius, runs);
+        }
         runs.push_back({0, 0, {}});
         runs[0].last = rows_.first_blocked_vertex(0, cells(), 0, radius) - 1;
         runs[0].last = std::min(runs[0].last, cells() - 1);
@@ -101,7 +112,9 @@ class Diagram {
 
     // Whether a path that has reached the runs of the last row has reached its end.
     bool is_through(const Runs& last_row, const Radius& radius) const {
-        if (ends_ == PathEnds::anywhere) return !last_row.empty();
+        if (ends_.edges > 0) {
+            return !last_row.empty() && last_row.back().last >= cells() - ends_.edges;
+        }
         return !last_row.empty() && last_row.back().last == cells() - 1 &&
                corner_is_free(rows() - 1, cells(), radius);
     }

@@ -9,8 +9,13 @@
 #include <vector>
 
 #include "check.hpp"
+#include "continuous/boxed_curve.hpp"
+#include "continuous/closed_leash.hpp"
+#include "continuous/plain_range.hpp"
 #include "curves.hpp"
+#include "curves/ring.hpp"
 #include "curvewise/frechet_continuous.hpp"
+#include "unpolled.hpp"
 
 namespace {
 
@@ -97,6 +102,17 @@ void random_curves_from_many_places() {
     }
 }
 
+// Whether a path leads around: one decision, which tries all beginnings.
+bool leads_around(const CurveView& P, const CurveView& Q, double distance) {
+    const curvewise::curves::RingPoints p(P, {1, 0}, test::unpolled), q(Q, {2, 0}, test::unpolled);
+    const curvewise::curves::RangeScale range = curvewise::continuous::plain_scale(1.0);
+    const curvewise::continuous::BoxedCurve first(p.view(), range, test::unpolled),
+        second(q.view(), range, test::unpolled);
+    curvewise::continuous::ClosedLeashSearch<2> search(p.view(), q.view(), first, second, range,
+                                                       test::unpolled);
+    return search.is_within(distance);
+}
+
 void values_by_hand() {
     const Curve square{{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}};
     const Curve on_edge{{1.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}, {0.0, 0.0}};
@@ -118,9 +134,36 @@ void values_by_hand() {
                  "coordinates");
 }
 
+// Noise, for which many free sections have to be tried: the value suffices, and the double below it
+// does not.
+void least_doubles_of_noise() {
+    Random random(8);
+    for (const std::ptrdiff_t size : {12, 40, 90, 200}) {
+        for (int round = 0; round < 6; ++round) {
+            const Curve P = random.curve(size, 2), Q = random.curve(size - size / 10, 2);
+            const double value = closed_frechet_continuous(P, Q);
+            CHECK_EQUAL(closed_frechet_continuous(Q, P), value);
+            CHECK(leads_around(P, Q, value));
+            CHECK(!leads_around(P, Q, std::nextafter(value, 0.0)));
+        }
+    }
+}
+
+// Values among the least doubles, which are fewer than the strides of the search.
+void small_numbers() {
+    const Curve P{{0.0, 0.0}, {5.0, 1.0}, {2.0, 7.0}, {6.0, 3.0}};
+    const Curve Q{{1.0, 6.0}, {4.0, 4.0}, {0.0, 3.0}, {7.0, 0.0}, {2.0, 2.0}};
+    const double value = closed_frechet_continuous(P, Q);
+    const double least =
+        closed_frechet_continuous(P.times_power_of_two(-1074), Q.times_power_of_two(-1074));
+    CHECK_EQUAL(least, std::ceil(value) * 0x1p-1074);
+}
+
 }  // namespace
 
 int main() {
     return check::run({{"values by hand", values_by_hand},
-                       {"random curves from many places", random_curves_from_many_places}});
+                       {"random curves from many places", random_curves_from_many_places},
+                       {"least doubles of noise", least_doubles_of_noise},
+                       {"small numbers", small_numbers}});
 }

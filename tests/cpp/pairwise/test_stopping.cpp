@@ -4,6 +4,7 @@
 // call.
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
@@ -109,11 +110,40 @@ void single_calls() {
           [&](Control* control) { value_and_gradient(DtwOptions{}, few, Q, out.data(), control); });
     hears("frechet_continuous_path",
           [&](Control* control) { return frechet_continuous_path(few, Q, {}, control); });
+    hears("closed_frechet_continuous",
+          [&](Control* control) { return closed_frechet_continuous(few, Q, {}, control); });
+    hears("closed_frechet_continuous_path",
+          [&](Control* control) { return closed_frechet_continuous_path(few, Q, {}, control); });
     hears("frechet_within",
           [&](Control* control) { return frechet_within(few, Q, 1e9, true, control); });
     hears("mse", [&](Control* control) { return mse(P, Q, control); });
     hears("mae", [&](Control* control) { return mae(P, Q, control); });
     hears("normalize", [&](Control* control) { normalize(P, Q, out.data(), "Q", control); });
+}
+
+// A circle once around, as vertices of regular polygons, and many times around.
+Curve circle(std::ptrdiff_t turns, std::ptrdiff_t vertices, double radius) {
+    Curve points(std::vector<double>(static_cast<std::size_t>(2 * turns * vertices)), 2);
+    for (std::ptrdiff_t i = 0; i < points.size(); ++i) {
+        const double angle =
+            6.283185307179586 * static_cast<double>(i % vertices) / static_cast<double>(vertices);
+        points(i, 0) = radius * std::cos(angle);
+        points(i, 1) = radius * std::sin(angle);
+    }
+    return points;
+}
+
+// A path around may begin on each turn of the second curve, and none leads once around both: each
+// decision tries all turns.
+void many_beginnings() {
+    constexpr std::ptrdiff_t turns = 3000, vertices = 24;
+    const Curve once = circle(1, vertices, 1.0), often = circle(turns, vertices, 1.25);
+    const Call call = [&](Control* control) {
+        return closed_frechet_continuous(once, often, {}, control);
+    };
+    hears("many beginnings", call);
+    // Of one decision, in which each beginning leads through all rows.
+    CHECK(polls_of(call) > turns * vertices * 8 / (1 << 15));
 }
 
 void batches() {
@@ -207,6 +237,7 @@ void what_a_report_throws_ends_the_call() {
 
 int main() {
     return check::run({{"single calls", single_calls},
+                       {"many beginnings", many_beginnings},
                        {"batches", batches},
                        {"what a report throws ends the call", what_a_report_throws_ends_the_call},
                        {"an index that is busy", an_index_that_is_busy}});
