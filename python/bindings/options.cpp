@@ -270,8 +270,8 @@ void refuse_unknown_option(const char* measure, const py::dict& given, const py:
     for (const auto& [name, value] : given) {
         if (valid.contains(name)) continue;
         throw py::type_error(std::string(measure) + " has no option " +
-                             py::repr(name).cast<std::string>() + "; it has " + list +
-                             option_hint(measure, name, known));
+                             py::repr(name).cast<std::string>() + "; it has " +
+                             (list.empty() ? "none" : list) + option_hint(measure, name, known));
     }
     throw py::type_error("the options of " + std::string(measure) +
                          " changed while they were read");

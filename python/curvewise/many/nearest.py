@@ -35,7 +35,7 @@ from ..curves.reference_systems import check_reference_systems
 from ..measures.registry import MeasureName
 from .index_file import read_note, write_note
 from .index_labels import IndexLabels, with_gaps
-from .pairwise import Curves, LabelledCurves, _check_names, checked_limit
+from .pairwise import Curves, LabelledCurves, _check_names, checked_limit, of_compiled
 
 __all__ = ["Index", "checked_count"]
 
@@ -124,14 +124,14 @@ class Index:
                 "function of two curves as its measure"
             )
         self._measure = _check_names(measure, options)
-        self._options = options
+        self._options = of_compiled(self._measure, options)
         self._crs = check_reference_systems(options, curves=curves)
         curves, labels = unlabelled(curves, "curves")
         self._labels = IndexLabels(labels)
         given = as_curve_list(curves, "curves", keep_float32=True, layout=layout)
         # Later curves have the same number of coordinates, which settles their layout.
         self._layout: Layout | None = "channels_last" if given and layout is None else layout
-        self._hold(CompiledIndex(given, self._measure, options))
+        self._hold(CompiledIndex(given, self._measure, self._options))
 
     def _hold(self, compiled: CompiledIndex) -> None:
         self._index = compiled

@@ -223,6 +223,7 @@ def cdist(
         _fill(values, product(rows, others), points, function, limit, progress)
     else:
         name = _check_names(measure, options)
+        options = of_compiled(name, options)
         with reporting(progress) as report:
             compiled_cdist(rows, columns, name, options, values, workers, limit, report)
     return labelled_matrix(values, row_labels, column_labels)
@@ -325,6 +326,7 @@ def pdist(
         _fill(values, combinations(curves, 2), points, function, limit, progress)
     else:
         name = _check_names(measure, options)
+        options = of_compiled(name, options)
         _check_symmetric(name, options)
         with reporting(progress) as report:
             compiled_pdist(curves, name, options, values, workers, limit, report)
@@ -342,20 +344,31 @@ _ELSEWHERE = {
 }
 
 
-# Options of measures that only their functions of one pair have.
+# Options of measures that only their functions of one pair have, with their defaults.
 _OF_PYTHON = {
-    "dtw": {"closed", "dependent"},
-    "frechet": {"closed"},
-    "frechet_continuous": {"closed"},
+    "dtw": {"closed": False, "dependent": True},
+    "frechet": {"closed": False},
+    "frechet_continuous": {"closed": False},
 }
+
+
+def of_compiled(measure: str, options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options without defaults of those that compiled measures do not have."""
+    apart = _OF_PYTHON.get(measure, {})
+    if options.get("closed") and "closed" in apart:
+        raise TypeError(
+            f"{measure} has closed=True for one pair, in cdist and in pdist; for nearest curves, "
+            f"sort the rows of cdist(queries, curves, {measure!r}, closed=True)"
+        )
+    return {o: v for o, v in options.items() if o not in apart or v is not apart[o]}
 
 
 def _is_called_by_pairs(measure: Measure, options: Mapping[str, Any]) -> bool:
     """Return whether pairs are called from Python."""
     if callable(measure) or callable(options.get("metric")):
         return True
-    asked = bool(options.get("closed")) or not options.get("dependent", True)
-    return asked and measure in _OF_PYTHON
+    apart = _OF_PYTHON.get(measure, {}) if isinstance(measure, str) else {}
+    return any(bool(options.get(option, default)) != default for option, default in apart.items())
 
 
 def _called_by_pairs(
@@ -371,9 +384,9 @@ def _called_by_pairs(
     name = _check_names(measure, options)
     # Measures without user-defined metrics refuse it here, as they refuse curves.
     is_warping = name in get_args(WarpingName)
-    of_pair = _OF_PYTHON.get(name, set())
+    of_pair = set(_OF_PYTHON.get(name, ()))
     if is_warping:
-        of_pair = of_pair | {"metric", "p", "radius"}
+        of_pair |= {"metric", "p", "radius"}
     check_batch(rows, columns, name, {o: v for o, v in options.items() if o not in of_pair})
     of_function = options | {"cutoff": limit} if is_warping else options
     return partial(MEASURES[name].function, **of_function)

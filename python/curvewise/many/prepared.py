@@ -25,7 +25,7 @@ from ..curves.labels import labelled_column, unlabelled
 from ..curves.layouts import ask_about_curves, settled_layout
 from ..curves.reference_systems import check_reference_systems
 from ..measures.registry import MeasureName
-from .pairwise import _check_names, checked_limit
+from .pairwise import _check_names, checked_limit, of_compiled
 
 __all__ = ["Prepared"]
 
@@ -75,8 +75,8 @@ class Prepared:
         self._curve = copy_of(curve)
         self._columns = column_names(P)
         self._measure = _check_names(measure, options)
-        self._options = options
-        self._prepared = CompiledPrepared(self._curve, self._measure, options)
+        self._options = of_compiled(self._measure, options)
+        self._prepared = CompiledPrepared(self._curve, self._measure, self._options)
 
     def __repr__(self) -> str:
         options = "".join(f", {name}={value!r}" for name, value in self._options.items())

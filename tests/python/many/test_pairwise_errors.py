@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from typing import get_args
 
 import numpy as np
@@ -114,6 +115,16 @@ TYPES = {
     "frechet has no option 'n_jobs'; it has metric, p, radius, prune; did you mean 'workers'?": (
         lambda: pdist([GOOD], "frechet", n_jobs=2)
     ),
+    "frechet_continuous has no option 'prune'; it has none": lambda: cdist(
+        [GOOD], measure="frechet_continuous", prune=False
+    ),
+    **{
+        f"{name} has closed=True for one pair, in cdist and in pdist; for nearest curves, sort the "
+        f"rows of cdist(queries, curves, {name!r}, closed=True)": partial(
+            Index, [GOOD], name, closed=True
+        )
+        for name in ("dtw", "frechet", "frechet_continuous")
+    },
     "workers is an option of the calls that compute; give it to them": lambda: Index(
         [GOOD], workers=2
     ),

@@ -172,6 +172,20 @@ def test_layouts_and_many_curves() -> None:
         assert compared[name] == value
 
 
+def test_the_defaults_of_many_curves() -> None:
+    """Options that only pairs have may be written out with their defaults."""
+    rng = np.random.default_rng(6)
+    curves = [rng.normal(size=(n, 2)) for n in (8, 5)]
+    for name in ("dtw", "frechet", "frechet_continuous"):
+        options = {"closed": False} | ({"dependent": True} if name == "dtw" else {})
+        expected = getattr(curvewise, name)(*curves)
+        assert curvewise.cdist(curves, measure=name, **options)[0, 1] == expected
+        assert curvewise.pdist(curves, name, **options).tolist() == [expected]
+        assert curvewise.Prepared(curves[0], name, **options)(curves[1]) == expected
+        index = curvewise.Index(curves[1:], name, **options)
+        assert index.kneighbors(curves[:1], 1)[0].tolist() == [[expected]]
+
+
 def test_what_is_refused() -> None:
     P, Q = np.eye(2), np.ones((3, 2))
     for package in (curvewise, reference):
