@@ -63,6 +63,7 @@ module curvewise
         logical :: prune = .true.               ! skip cells that cannot affect the result
         real(c_double) :: cutoff = huge(1.0_c_double)  ! a value above it becomes infinity
         real(c_double) :: radius = 6371008.8_c_double  ! of the sphere of haversine
+        logical :: closed = .false.             ! both curves are closed; not of many curves
     end type
 
     type, extends(measure_options), public :: dtw_options
@@ -83,6 +84,7 @@ module curvewise
         integer(c_ptrdiff_t) :: relax_p_end = 0    ! maximum number of last points of P to omit
         integer(c_ptrdiff_t) :: relax_q_begin = 0  ! the same of Q
         integer(c_ptrdiff_t) :: relax_q_end = 0
+        logical :: closed = .false.             ! both curves are closed; not of many curves
     end type
 
     type, extends(measure_options), public :: curve_length_options
@@ -91,6 +93,7 @@ module curvewise
 
     type, extends(measure_options), public :: frechet_continuous_options
         integer(c_ptrdiff_t) :: workers = 1     ! threads, -1 for one per core
+        logical :: closed = .false.             ! both curves are closed; not of many curves
     end type
 
     ! The result of compare. A measure of the plane is NaN if the curves have not two coordinates.

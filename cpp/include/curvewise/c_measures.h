@@ -63,7 +63,7 @@ CURVEWISE_EXPORT int curvewise_compare(const curvewise_curve* P, const curvewise
 
 /** A distance and the path that attains it, as in alignment.hpp: path[2 k] is the index of a point
  * of P and path[2 k + 1] of the point of Q that it is matched to. `path` has room for `capacity`
- * pairs, of which n + m - 1 are always enough; *count is their number. */
+ * pairs, of which n + m are always enough; *count is their number. */
 CURVEWISE_EXPORT int curvewise_dtw_path(const curvewise_curve* P, const curvewise_curve* Q,
                                         const curvewise_dtw_options* options, double* distance,
                                         int64_t* path, ptrdiff_t capacity, ptrdiff_t* count,

@@ -112,10 +112,14 @@ typedef struct curvewise_frechet_options {
     int prune;         /**< not 0: skip cells that cannot affect the result */
     double cutoff;     /**< a value above it becomes infinity */
     double radius;     /**< of the sphere of CURVEWISE_HAVERSINE; not used by other metrics */
+    int closed;        /**< not 0: both curves are closed (closed_curves.hpp); not in batches */
 } curvewise_frechet_options;
 /** The options for NULL. */
-#define CURVEWISE_FRECHET_DEFAULTS \
-    { sizeof(curvewise_frechet_options), NULL, CURVEWISE_EUCLIDEAN, 2.0, 1, 1, HUGE_VAL, 6371008.8 }
+#define CURVEWISE_FRECHET_DEFAULTS                                                         \
+    {                                                                                      \
+        sizeof(curvewise_frechet_options), NULL, CURVEWISE_EUCLIDEAN, 2.0, 1, 1, HUGE_VAL, \
+            6371008.8, 0                                                                   \
+    }
 
 /** Options of curvewise_dtw(), as in dtw.hpp. */
 typedef struct curvewise_dtw_options {
@@ -138,6 +142,7 @@ typedef struct curvewise_dtw_options {
     ptrdiff_t relax_p_end;   /**< maximum number of last points of P to omit */
     ptrdiff_t relax_q_begin; /**< the same of Q */
     ptrdiff_t relax_q_end;
+    int closed; /**< not 0: both curves are closed (closed_curves.hpp); not in batches */
 } curvewise_dtw_options;
 /** As the window: no band. */
 #define CURVEWISE_NO_WINDOW (-1)
@@ -145,7 +150,7 @@ typedef struct curvewise_dtw_options {
 #define CURVEWISE_DTW_DEFAULTS                                                                     \
     {                                                                                              \
         sizeof(curvewise_dtw_options), NULL, CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, \
-            CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL, 0.0, 0, 0.0, 6371008.8, 0, 0, 0, 0                \
+            CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL, 0.0, 0, 0.0, 6371008.8, 0, 0, 0, 0, 0             \
     }
 
 /** Options of curvewise_curve_length(), as in curve_length.hpp. */
@@ -163,10 +168,11 @@ typedef struct curvewise_frechet_continuous_options {
     size_t size;
     curvewise_control* control;
     ptrdiff_t workers; /**< threads, -1 for one per core; one pair is searched by one thread */
+    int closed;        /**< not 0: both curves are closed; not in batches */
 } curvewise_frechet_continuous_options;
 /** The options for NULL. */
 #define CURVEWISE_FRECHET_CONTINUOUS_DEFAULTS \
-    { sizeof(curvewise_frechet_continuous_options), NULL, 1 }
+    { sizeof(curvewise_frechet_continuous_options), NULL, 1, 0 }
 
 /** Options of curvewise_compare(), as in compare.hpp. */
 typedef struct curvewise_compare_options {

@@ -1,6 +1,9 @@
 // The C interface: two curves.
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
 
 #include "interface/c_translate.hpp"
 
@@ -15,12 +18,70 @@ using curvewise::c::require;
 using curvewise::c::translate;
 using curvewise::c::view;
 
+// The options of closed curves: those that open curves have, if the others are the defaults.
+template <class Given>
+std::optional<curvewise::ClosedOptions> closed_options(Given given) {
+    if (given.closed == 0) return std::nullopt;
+    given.closed = 0;
+    curvewise::ClosedOptions options;
+    options.ground = translate(given).ground;
+    options.cutoff = given.cutoff;
+    return options;
+}
+
+std::optional<curvewise::ClosedOptions> closed_options(const curvewise_dtw_options& given) {
+    const auto refuse = [&](const char* option, bool is_given) {
+        if (given.closed == 0 || !is_given) return;
+        throw std::invalid_argument("closed has no " + std::string(option) + "; leave its default");
+    };
+    refuse("step_pattern", given.step_pattern != CURVEWISE_SYMMETRIC1);
+    refuse("open_begin", given.open_begin != 0);
+    refuse("open_end", given.open_end != 0);
+    refuse("window", given.window != CURVEWISE_NO_WINDOW);
+    refuse("window_fraction", given.window_fraction != 0.0);
+    refuse("normalize", given.normalize != 0);
+    refuse("penalty", given.penalty != 0.0);
+    refuse("relax", given.relax_p_begin != 0 || given.relax_p_end != 0 ||
+                        given.relax_q_begin != 0 || given.relax_q_end != 0);
+    return closed_options<curvewise_dtw_options>(given);
+}
+
+// The value of closed curves, if the options ask for it.
+std::optional<double> closed_value(int measure, const curvewise_curve* P, const curvewise_curve* Q,
+                                   const void* options) {
+    if (measure == CURVEWISE_DTW) {
+        const auto given = complete(static_cast<const curvewise_dtw_options*>(options));
+        if (const auto closed = closed_options(given)) {
+            return curvewise::closed_dtw(view(P, "P"), view(Q, "Q"), *closed,
+                                         control_of(given.control));
+        }
+    } else if (measure == CURVEWISE_FRECHET) {
+        const auto given = complete(static_cast<const curvewise_frechet_options*>(options));
+        if (const auto closed = closed_options(given)) {
+            return curvewise::closed_frechet(view(P, "P"), view(Q, "Q"), *closed,
+                                             control_of(given.control));
+        }
+    } else if (measure == CURVEWISE_FRECHET_CONTINUOUS) {
+        const auto given =
+            complete(static_cast<const curvewise_frechet_continuous_options*>(options));
+        if (given.closed != 0) {
+            return curvewise::closed_frechet_continuous(view(P, "P"), view(Q, "Q"), {given.workers},
+                                                        control_of(given.control));
+        }
+    }
+    return std::nullopt;
+}
+
 // A measure of two curves.
 int measured(int measure, const curvewise_curve* P, const curvewise_curve* Q, const void* options,
              double* value, curvewise_error* error) noexcept {
     return guarded(error, [&] {
-        const auto [chosen, control] = curvewise::c::measure_of(measure, options);
         double& out = at(value, "value");
+        if (const auto closed = closed_value(measure, P, Q, options)) {
+            out = *closed;
+            return;
+        }
+        const auto [chosen, control] = curvewise::c::measure_of(measure, options);
         out = curvewise::evaluate(chosen, view(P, "P"), view(Q, "Q"), control);
     });
 }
@@ -34,16 +95,20 @@ struct PathArrays {
 };
 
 // A path of two curves, by the function of its measure.
-template <class Given, class Function>
+template <class Given, class Function, class ClosedFunction>
 int path_of(const curvewise_curve* P, const curvewise_curve* Q, const Given* options,
-            const PathArrays& out, curvewise_error* error, Function function) noexcept {
+            const PathArrays& out, curvewise_error* error, Function function,
+            ClosedFunction closed_function) noexcept {
     return guarded(error, [&] {
         double& distance = at(out.distance, "distance");
         ptrdiff_t& count = at(out.count, "count");
         require(out.path, "path");
         const Given given = complete(options);
-        const curvewise::Alignment found =
-            function(view(P, "P"), view(Q, "Q"), translate(given), control_of(given.control));
+        const curvewise::CurveView p = view(P, "P"), q = view(Q, "Q");
+        curvewise::Control* const control = control_of(given.control);
+        const auto closed = closed_options(given);
+        const curvewise::Alignment found = closed ? closed_function(p, q, *closed, control)
+                                                  : function(p, q, translate(given), control);
         curvewise::c::write_count(found.path.size(), out.capacity, count);
         int64_t* place = out.path;
         for (const auto& pair : found.path) place = std::copy(pair.begin(), pair.end(), place);
@@ -127,15 +192,16 @@ int curvewise_compare(const curvewise_curve* P, const curvewise_curve* Q,
 int curvewise_dtw_path(const curvewise_curve* P, const curvewise_curve* Q,
                        const curvewise_dtw_options* options, double* distance, int64_t* path,
                        ptrdiff_t capacity, ptrdiff_t* count, curvewise_error* error) {
-    return path_of(P, Q, options, {distance, path, capacity, count}, error, curvewise::dtw_path);
+    return path_of(P, Q, options, {distance, path, capacity, count}, error, curvewise::dtw_path,
+                   curvewise::closed_dtw_path);
 }
 
 int curvewise_frechet_path(const curvewise_curve* P, const curvewise_curve* Q,
                            const curvewise_frechet_options* options, double* distance,
                            int64_t* path, ptrdiff_t capacity, ptrdiff_t* count,
                            curvewise_error* error) {
-    return path_of(P, Q, options, {distance, path, capacity, count}, error,
-                   curvewise::frechet_path);
+    return path_of(P, Q, options, {distance, path, capacity, count}, error, curvewise::frechet_path,
+                   curvewise::closed_frechet_path);
 }
 
 int curvewise_pcm_match(const curvewise_curve* P, const curvewise_curve* Q,

@@ -34,6 +34,13 @@ Given complete(const Given* given, const Given& defaults, const char* start) {
     return given == nullptr ? defaults : covered(given, defaults, start);
 }
 
+// Of closed curves, only single values and paths are computed (c_measures.cpp).
+void refuse_closed(int closed) {
+    if (closed == 0) return;
+    throw std::invalid_argument(
+        "closed is an option of single pairs; call dtw, frechet or frechet_continuous for each");
+}
+
 template <class Given>
 ChosenMeasure chosen(const void* options) {
     const Given given = c::complete(static_cast<const Given*>(options));
@@ -94,6 +101,7 @@ PcmOptions translate(const curvewise_pcm_options& given) {
 }
 
 FrechetOptions translate(const curvewise_frechet_options& given) {
+    refuse_closed(given.closed);
     FrechetOptions options;
     options.ground = ground_distance(given.metric, given.p, given.radius);
     options.workers = given.workers;
@@ -103,6 +111,7 @@ FrechetOptions translate(const curvewise_frechet_options& given) {
 }
 
 DtwOptions translate(const curvewise_dtw_options& given) {
+    refuse_closed(given.closed);
     DtwOptions options;
     options.ground = ground_distance(given.metric, given.p, given.radius);
     options.step_pattern = choice<StepPattern>("step_pattern", given.step_pattern);
@@ -125,6 +134,7 @@ CurveLengthOptions translate(const curvewise_curve_length_options& given) {
 }
 
 FrechetContinuousOptions translate(const curvewise_frechet_continuous_options& given) {
+    refuse_closed(given.closed);
     return {given.workers};
 }
 

@@ -60,6 +60,7 @@ Frechet = options(
     ("workers", c_ssize_t),
     *PRUNING,
     ("radius", c_double),
+    ("closed", c_int),
 )
 Dtw = options(
     "Dtw",
@@ -73,9 +74,10 @@ Dtw = options(
     ("penalty", c_double),
     ("radius", c_double),
     *((f"relax_{end}", c_ssize_t) for end in ("p_begin", "p_end", "q_begin", "q_end")),
+    ("closed", c_int),
 )
 CurveLength = options("CurveLength", ("scale", c_int))
-FrechetContinuous = options("FrechetContinuous", ("workers", c_ssize_t))
+FrechetContinuous = options("FrechetContinuous", ("workers", c_ssize_t), ("closed", c_int))
 Compare = options("Compare", ("preset", c_int))
 Batch = options("Batch", ("workers", c_ssize_t), ("cutoff", c_double))
 Search = options(

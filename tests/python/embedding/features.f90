@@ -61,6 +61,10 @@ contains
         call show('split', area(P, Q, area_options(crossing=split, squared=.true.)))
         call show('polygon', area(P, Q, area_options(crossing=polygon, closed=.true.)))
         call show('continuous', frechet_continuous(P, Q))
+        call show('closed_dtw', dtw(P, Q, dtw_options(closed=.true.)))
+        call show('closed_frechet', frechet(P, Q, frechet_options(closed=.true.)))
+        call show('closed_continuous', &
+            frechet_continuous(P, Q, frechet_continuous_options(closed=.true.)))
         call show('cutoff', merge(1.0_real64, 0.0_real64, &
             frechet(P, Q, frechet_options(cutoff=1e-3_real64)) > huge(1.0_real64)))
     end subroutine

@@ -24,9 +24,11 @@ from c_structs import (
     Dtw,
     Error,
     Frechet,
+    FrechetContinuous,
     Pcm,
     curves,
     doubles,
+    integers,
     view,
 )
 from programs import MARKS, run
@@ -116,6 +118,45 @@ def test_points_left_out_at_the_ends(call) -> None:
         assert call("dtw", P, Q, relaxed(*relax)) == expected
 
 
+def closed(name: str, **given: int) -> Structure:
+    """Return options of closed curves, by default with the distance of sums of coordinates."""
+    options = {
+        "dtw": Dtw(2, 2.0, 0, 0, 0, -1, 1, 1, math.inf),
+        "frechet": Frechet(2, 2.0, 1, 1, math.inf),
+        "frechet_continuous": FrechetContinuous(1),
+    }[name]
+    for option, value in ({"closed": 1} | given).items():
+        setattr(options, option, value)
+    return options
+
+
+@pytest.mark.parametrize("name", ["dtw", "frechet", "frechet_continuous"])
+def test_closed_curves(name, call, library) -> None:
+    given = {"closed": True} | ({} if name == "frechet_continuous" else {"metric": "cityblock"})
+    expected = getattr(curvewise, name)(P, Q, **given)
+    assert call(name, P, Q, closed(name)) == expected
+    assert call(name, P, Q, closed(name, closed=0)) != expected
+    options, value, error = closed(name), c_double(), Error()
+    pair, code = curves(P, Q), MEASURES.index(name)
+    chosen = byref(pair[0]), byref(pair[1]), code, byref(options)
+    assert library.curvewise_evaluate(*chosen, byref(value), byref(error)) == OK
+    assert value.value == expected
+    out = np.empty(1)
+    batch = pair, c_ssize_t(2), code, byref(options), None, doubles(out), byref(error)
+    assert library.curvewise_pdist(*batch) == INVALID_ARGUMENT
+    assert error.message.decode() == (
+        "closed is an option of single pairs; call dtw, frechet or frechet_continuous for each"
+    )
+    if name != "frechet_continuous":
+        path, count = np.empty((len(P) + len(Q), 2), dtype=np.int64), c_ssize_t()
+        room = integers(path), c_ssize_t(len(path)), byref(count), byref(error)
+        chosen = byref(pair[0]), byref(pair[1]), byref(options), byref(value)
+        assert getattr(library, f"curvewise_{name}_path")(*chosen, *room) == OK
+        found = getattr(curvewise, f"{name}_path")(P, Q, **given)
+        assert value.value == found.distance
+        assert path[: count.value].tolist() == found.path.tolist()
+
+
 def test_cutoff(call) -> None:
     for name, options in (("frechet", Frechet(0, 2.0, 1, 1)), ("dtw", Dtw(0, 2.0, 0, 0, 0, -1, 1))):
         distance = getattr(curvewise, name)(P, Q)
@@ -170,6 +211,15 @@ def test_planar_options(call) -> None:
             per_step_or_fraction(window=3, fraction=0.5),
             "window and window_fraction are both",
         ),
+        (
+            "dtw",
+            closed("dtw", step_pattern=1),
+            "^closed has no step_pattern; leave its default$",
+        ),
+        ("dtw", closed("dtw", window=3), "^closed has no window;"),
+        ("dtw", closed("dtw", open_end=1), "^closed has no open_end;"),
+        ("dtw", closed("dtw", relax_q_begin=1), "^closed has no relax;"),
+        ("frechet", closed("frechet", metric=6), "unknown metric 6; choose from 0 to 5"),
         ("curve_length", CurveLength(7), "unknown scale 7; choose from 0 to 2"),
     ],
 )
