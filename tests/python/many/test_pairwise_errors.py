@@ -177,13 +177,13 @@ def test_errors(message, call, error):
         ),
         (
             lambda: Index([GOOD], lambda P, Q: 0.0),
-            "np.argsort(curvewise.cdist(queries, curves, ...)), or give "
-            "curvewise.sklearn.CurveKNeighborsClassifier a function as its measure",
+            "np.argsort(curvewise.cdist(queries, curves, ...), axis=1, kind='stable')[:, :k], or "
+            "give an estimator of curvewise.sklearn a function of two curves as its measure",
         ),
         (
             lambda: Index([GOOD], metric=lambda p, q: np.abs(p[:, :1] - q[:, 0])),
-            "np.argsort(curvewise.cdist(queries, curves, ...)), or give "
-            "curvewise.sklearn.CurveKNeighborsClassifier a function as its measure",
+            "np.argsort(curvewise.cdist(queries, curves, ...), axis=1, kind='stable')[:, :k], or "
+            "give an estimator of curvewise.sklearn a function of two curves as its measure",
         ),
     ],
 )
