@@ -4,17 +4,20 @@ A test of 20 cycles between 450 and -390 MPa is simulated with one back stress a
 0.005 % strain. The material is identified from it with the measured stresses as the drive. Prints
 for each measure and parameter the error, and how many intervals of 95 % hold the truth. The search
 is the default one, or one start at the truth: 40 branches leave many local minima near the lowest
-one. The intervals by `frechet` are those of the bootstrap, as the documentation advises.
+one. The intervals by `frechet` are those of the bootstrap, as the documentation advises. The last
+lines have the sums over all simulated tests.
 
-    python benchmarks/validation/ratcheting.py
+    python benchmarks/validation/ratcheting.py [tests]
 
-Takes about a minute and a half.
+Takes about a minute for each test.
 """
 
 from __future__ import annotations
 
 import itertools
+import sys
 import time
+from collections import Counter
 
 import numpy as np
 
@@ -50,13 +53,15 @@ def noisy_test(seed: int) -> np.ndarray:
 
 def main() -> None:
     """Identify and print."""
-    test = noisy_test(0)
-    model = STEEL.driven_by(test, control="stress")
-    drift = test[STEPS - 1 :: 2 * STEPS, 0]
+    tests = int(sys.argv[1]) if len(sys.argv) > 1 else 1
+    drift = noisy_test(0)[STEPS - 1 :: 2 * STEPS, 0]
     print(f"strain at the largest stress: {drift[0]:.5f} in cycle 1, {drift[-1]:.5f} in the last\n")
-    print(f"| measure | start | {' | '.join(TRUTH)} | held | converged | runs | s |")
-    print(f"|---|---|{'---:|' * (len(TRUTH) + 4)}")
-    for (measure, samples), start in itertools.product(SAMPLES.items(), STARTS):
+    print(f"| test | measure | start | {' | '.join(TRUTH)} | held | converged | runs | s |")
+    print(f"|---:|---|---|{'---:|' * (len(TRUTH) + 4)}")
+    total: Counter[tuple[str, str]] = Counter()
+    for seed, (measure, samples), start in itertools.product(range(tests), SAMPLES.items(), STARTS):
+        test = noisy_test(seed)
+        model = STEEL.driven_by(test, control="stress")
         begin = time.perf_counter()
         options = STARTS[start]
         found = identify(model, test, BOUNDS, measure=measure, progress=False, **options)
@@ -67,11 +72,14 @@ def main() -> None:
             for name, value in TRUTH.items()
         ]
         held = sum(low <= TRUTH[name] <= high for name, (low, high) in said.intervals.items())
+        total[measure, start] += held
         print(
-            f"| {measure} | {start} | {' | '.join(errors)} | {held} of {len(TRUTH)} | "
+            f"| {seed} | {measure} | {start} | {' | '.join(errors)} | {held} of {len(TRUTH)} | "
             f"{found.converged} | {found.evaluations} | {seconds:.0f} |",
             flush=True,
         )
+    for (measure, start), held in total.items():
+        print(f"{measure}, {start}: {held} of {tests * len(TRUTH)} intervals hold the truth")
 
 
 if __name__ == "__main__":

@@ -81,6 +81,27 @@ def test_the_bootstrap_of_a_measure_is_near_least_squares():
         assert (ratio < 2.5).all(), measure
 
 
+def chebyshev_fit(noise):
+    """Return the parabola of the least largest deviation, by a linear program."""
+    from scipy.optimize import linprog
+
+    ones = np.ones((len(X), 1))
+    upper = np.vstack((np.hstack((DESIGN, -ones)), np.hstack((-DESIGN, -ones))))
+    cost, free = [0.0, 0.0, 0.0, 1.0], (None, None)
+    return linprog(cost, A_ub=upper, b_ub=np.hstack((noise, -noise)), bounds=[free] * 4).x[:3]
+
+
+def test_the_bootstrap_of_a_largest_distance_is_that_of_chebyshev_fits():
+    """The noise is less than the steps between points, so that frechet pairs equal points."""
+    test = with_noise(parabola(TRUTH), 0.005)
+    with pytest.warns(NoisyTestWarning, match="the one point that noise moves most"):
+        found = identify(parabola, test, BOUNDS, measure="frechet", **QUIET)
+    errors = found.uncertainty(sigma=0.005, samples=300).standard_errors
+    noise = np.random.default_rng(1).normal(0.0, 0.005, (500, len(X)))
+    expected = np.std([chebyshev_fit(one) for one in noise], axis=0, ddof=1)
+    assert list(errors.values()) == pytest.approx(expected, rel=0.12)
+
+
 def test_the_same_seed_gives_the_same_and_another_another():
     found = identify(parabola, TEST, BOUNDS, measure="dtw", **QUIET)
     one, same, other = (

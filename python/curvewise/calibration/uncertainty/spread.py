@@ -19,7 +19,9 @@ import numpy as np
 
 from ...curves.inputs import Array
 from ..problem.space import Space
+from ..surfaces import largest_distances
 from ..surfaces.quasi_newton import quasi_newton
+from ..surfaces.surfaces import PredictedCurves
 from .estimate import Estimate, estimate_of
 from .noise import Noise
 from .sensitivity import Optimum
@@ -33,6 +35,9 @@ ADDED_UP = ("area", "dtw", "sum_of_squares")
 # negligible gain, as a fraction of the cost of a standard error.
 _DIFFERENCE, _ENOUGH = 0.05, 0.002
 _LONGEST = 0.25  # greatest standard error, as a fraction of the bounds' ranges
+# The same for a largest distance, whose spread is several standard errors of the theory of sums:
+# half of the searched box in these errors, and the greatest number of evaluations with a gradient.
+_REACH, _EVALUATIONS = 30.0, 60
 
 
 class Spread(NamedTuple):
@@ -136,9 +141,17 @@ def _correlation(covariance: Array) -> Array:
 def _reminimised(optimum: Optimum, tests: list[Array], steps: Array) -> Array:
     """Return where on the surfaces the objective of other tests is lowest.
 
-    The search uses `steps` as coordinates: one standard error each, for white noise.
+    The search uses `steps` as coordinates: one standard error each, for white noise. A largest
+    distance has kinks at its minimum, where a search for smooth functions ends too early.
     """
     objective = optimum.problem.objective.of_other_tests(tests)
+    if objective.is_largest_distance:
+        reach = _REACH * np.linalg.norm(steps, axis=1)
+        low, high = (np.clip(optimum.unit + way * reach, 0.0, 1.0) for way in (-1.0, 1.0))
+        predicted = PredictedCurves(objective, optimum.responses, None, lambda: None)
+        return largest_distances.minimised(
+            predicted, optimum.surfaces, optimum.unit, low, high, _EVALUATIONS
+        )
 
     def place(z: Array) -> Array:
         moved: Array = np.clip(optimum.unit + steps @ z, 0.0, 1.0)
