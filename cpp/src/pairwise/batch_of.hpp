@@ -139,11 +139,11 @@ class BatchOf final : public BatchMeasure {
                 .values(measure_, rows_[static_cast<std::size_t>(i)], first, out, call.poller);
         }
         std::ptrdiff_t candidates(std::ptrdiff_t i, std::ptrdiff_t first, std::ptrdiff_t* places,
-                                  const PairCall& call) const override {
+                                  double& saved, const PairCall& call) const override {
             return static_cast<OwnMemory&>(call.memory)
                 .beside.columns()
                 .candidates(measure_, call.cutoff, rows_[static_cast<std::size_t>(i)], first,
-                            places, call.poller);
+                            places, saved, call.poller);
         }
         bool pair_values(const std::pair<std::ptrdiff_t, std::ptrdiff_t>* pairs,
                          std::ptrdiff_t count, double* out, const PairCall& call) const override {

@@ -34,7 +34,8 @@ struct NothingBeside {
     }
     static std::ptrdiff_t candidates(const M& /*measure*/, double /*cutoff*/,
                                      const typename M::PreparedP& /*P*/, std::ptrdiff_t /*first*/,
-                                     std::ptrdiff_t* /*places*/, Poller& /*poller*/) noexcept {
+                                     std::ptrdiff_t* /*places*/, double& /*saved*/,
+                                     Poller& /*poller*/) noexcept {
         return -1;
     }
     static bool bounds(const M& /*measure*/, double /*cutoff*/, const typename M::PreparedP& /*P*/,

@@ -21,37 +21,43 @@ bool is_above(Query& query, std::ptrdiff_t j, const PreparedQ& Q, double cutoff,
     return false;
 }
 
-// Whether tests pay. Where few of them do, only some are made, so that they cost next to nothing.
+// Whether tests pay. If they save less than they take, only some are made.
 class Trial {
    public:
     Trial() = default;
     // With less credit in the beginning, and a longer first rest.
-    Trial(int credit, int first_rest) noexcept : credit_(credit), first_rest_(first_rest) {}
+    Trial(double credit, std::ptrdiff_t first_rest) noexcept
+        : credit_(credit), first_rest_(first_rest) {}
 
     bool is_due() noexcept {
-        if (resting_ == 0) return true;
-        --resting_;
+        if (!rests(1)) return true;
+        pass(1);
         return false;
     }
-    void record(bool has_paid) noexcept {
-        credit_ = std::min(credit_ + (has_paid ? gain : -1), most_credit);
-        if (has_paid) rest_ = 0;
-        if (credit_ >= 0) return;
-        credit_ = 0;
+    // Whether none of the next tests is due.
+    bool rests(std::ptrdiff_t count) const noexcept { return resting_ >= count; }
+    void pass(std::ptrdiff_t count) noexcept { resting_ -= count; }
+    void record(bool has_paid) noexcept { record(has_paid ? gain : -1.0); }
+    // `saved` is the time that a test has saved, divided by its time; -1 if it saved none.
+    void record(double saved) noexcept {
+        credit_ = std::min(credit_ + saved, most_credit);
+        if (saved > 0.0) rest_ = 0;
+        if (credit_ >= 0.0) return;
+        credit_ = 0.0;
         rest_ = std::min(rest_ == 0 ? first_rest_ : 2 * rest_ + 1, longest_rest);
         resting_ = rest_;
     }
 
    private:
-    // A test that pays makes up for so many that do not.
-    static constexpr int gain = 4;
-    static constexpr int most_credit = 16;
-    static constexpr int longest_rest = 63;
+    // A test that pays makes up for this number of tests that do not.
+    static constexpr double gain = 4.0;
+    static constexpr double most_credit = 16.0;
+    static constexpr std::ptrdiff_t longest_rest = 63;
 
-    int credit_ = most_credit / 2;
-    int first_rest_ = 1;
-    int rest_ = 0;
-    int resting_ = 0;
+    double credit_ = most_credit / 2.0;
+    std::ptrdiff_t first_rest_ = 1;
+    std::ptrdiff_t rest_ = 0;
+    std::ptrdiff_t resting_ = 0;
 };
 
 }  // namespace curvewise::pairwise

@@ -70,10 +70,11 @@
 //     values(measure, prepared_p, first, out, poller)
 //                                      writes those of the Qs from `first` on, and counts their
 //                                      steps; false, and nothing done, where P is not for this
-//     candidates(measure, cutoff, prepared_p, first, places, poller)
+//     candidates(measure, cutoff, prepared_p, first, places, saved, poller)
 //                                      writes the places, from `first` on, of Qs whose values may
 //                                      be at most the cutoff, and returns how many; counts the
-//                                      steps of the others; -1 if all are computed in less time
+//                                      steps of the others, and writes the saved time, divided by
+//                                      that of the bounds; -1 if all are computed in less time
 //     bounds(measure, cutoff, prepared_p, out, poller)
 //                                      writes a lower bound of the value of each Q, or of one that
 //                                      is above the cutoff some bound that is, too; false, and

@@ -52,7 +52,7 @@ class PairRun {
         runtime::ScratchVector<std::ptrdiff_t> places;
         // Pairs whose bounds are within the cutoff, all of the same sizes.
         runtime::ScratchVector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> candidates;
-        Trial trial;
+        Trial trial{4.0, 1};
     };
 
     // If there are too few pairs to keep every thread busy to the end, all threads sweep a pair of
@@ -125,18 +125,24 @@ class PairRun {
     }
 
     void take_columns_beside(Tile tile, const PairCall& call, Beside& beside) const {
-        const std::ptrdiff_t end = tile.column_end;
+        const std::ptrdiff_t end = tile.column_end, rows = tile.row_end - tile.row;
+        // Columns are not gathered for bounds alone if no row is due to have bounds.
+        const bool rests = cutoff_ < infinity && beside.trial.rests(rows);
+        const PairCall gathering{rests ? infinity : cutoff_, 1, call.poller, call.memory};
+        bool are_apart = true;
         for (; tile.column < end; tile.column = tile.column_end) {
             const std::ptrdiff_t count =
-                pairs_.gather(tiles_.columns() + tile.column, end - tile.column, call);
+                pairs_.gather(tiles_.columns() + tile.column, end - tile.column, gathering);
             tile.column_end = tile.column + std::max<std::ptrdiff_t>(count, 1);
             if (count < 2) {
                 take_one_by_one(tile, call);
                 continue;
             }
+            are_apart = false;
             for (std::ptrdiff_t a = tile.row; a < tile.row_end; ++a)
                 take_row(tile, a, call, beside);
         }
+        if (rests && are_apart) beside.trial.pass(rows);
     }
 
     // A row with the columns of the tile, all of which have been gathered.
@@ -163,8 +169,10 @@ class PairRun {
         const std::ptrdiff_t i = tiles_.row(a), first = tiles_.first_column(tile, a);
         beside.places.resize(static_cast<std::size_t>(tile.column_end - first + 1));
         std::ptrdiff_t* place = beside.places.data();
-        const std::ptrdiff_t found = pairs_.candidates(i, first - tile.column, place, call);
-        beside.trial.record(found >= 0);
+        double saved = 0.0;
+        const std::ptrdiff_t found = pairs_.candidates(i, first - tile.column, place, saved, call);
+        constexpr double trust = 2.0;  // the estimate is a low one, most of all for frechet
+        beside.trial.record(found < 0 ? -1.0 : trust * saved);
         if (found < 0) return false;
         place[found] = -1;
         for (std::ptrdiff_t b = first; b < tile.column_end; ++b) {

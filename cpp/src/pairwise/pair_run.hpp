@@ -102,9 +102,11 @@ class PairValues : public runtime::InScratch {
                         const PairCall& call) const = 0;
     // Writes the places, counted from number `first` of the columns taken, of those whose values
     // with row i may be within the cutoff. Returns their number, and counts the steps of the other
-    // pairs; or -1, if it is faster to compute the values of all.
+    // pairs; or -1, if it is faster to compute the values of all. `saved` is the time that is
+    // saved, divided by the time of the bounds, at least 0.
     virtual std::ptrdiff_t candidates(std::ptrdiff_t i, std::ptrdiff_t first,
-                                      std::ptrdiff_t* places, const PairCall& call) const = 0;
+                                      std::ptrdiff_t* places, double& saved,
+                                      const PairCall& call) const = 0;
     // Several pairs at once, regardless of the cutoff: rows with the same number of points, columns
     // with the same number of points. False, and nothing done, where they are not for this.
     virtual bool pair_values(const std::pair<std::ptrdiff_t, std::ptrdiff_t>* pairs,

@@ -76,15 +76,22 @@ bool saves_time(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t 
     return m <= most_columns && cells_of_row(options.window, n, m) * lanes_beside() <= most * pairs;
 }
 
-// With so many candidates of `count` pairs of n and m points, bounds and candidates take as long as
-// all of the pairs together; negative if bounds alone do. In cells of a table, by measurement.
-std::ptrdiff_t most_candidates(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m,
-                               std::ptrdiff_t dim, std::ptrdiff_t count) noexcept {
-    const std::ptrdiff_t pair = n * cells_of_row(options.window, n, m) * dim;
-    const std::ptrdiff_t bound = (m + 80) * dim;
-    const std::ptrdiff_t candidate = pair + pair / 2 + 4 * (n + m) * dim;
-    return pair < bound ? -1 : count * (pair - bound) / candidate;
-}
+// The time of a pair among others, of its bound, and of a pair that is a candidate. In cells of a
+// table, by measurement.
+struct Efforts {
+    Efforts(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m, std::ptrdiff_t dim)
+        : pair(n * cells_of_row(options.window, n, m) * dim),
+          bound((m + 80) * dim),
+          candidate(pair + pair / 2 + 4 * (n + m) * dim) {}
+
+    // The time that bounds of `count` pairs save, divided by their time; below 0 if they lose time.
+    double saved(std::ptrdiff_t count, std::ptrdiff_t candidates) const noexcept {
+        const std::ptrdiff_t saved = count * (pair - bound) - candidates * candidate;
+        return static_cast<double>(saved) / static_cast<double>(count * bound);
+    }
+
+    std::ptrdiff_t pair, bound, candidate;
+};
 
 }  // namespace
 
@@ -296,10 +303,10 @@ bool CurvesBeside::may_be_bounded(const WarpingOptions& options, const P& curve)
 
 std::ptrdiff_t CurvesBeside::candidates(const WarpingOptions& options, double cutoff,
                                         const P& curve, std::ptrdiff_t first,
-                                        std::ptrdiff_t* places, Poller& poller) {
+                                        std::ptrdiff_t* places, double& saved, Poller& poller) {
     const std::ptrdiff_t n = curve.packed.size(), count = count_ - first;
-    const std::ptrdiff_t most = most_candidates(options, n, columns_, dim_, count);
-    if (most < 0 || !may_be_bounded(options, curve)) return -1;
+    const Efforts efforts(options, n, columns_, dim_);
+    if (efforts.pair < efforts.bound || !may_be_bounded(options, curve)) return -1;
     const Sweep sweep = sweep_with(options, curve);
     if (sweep.functions.bounds == nullptr) return -1;
     const double limit = sweep.root.most_under(
@@ -315,7 +322,8 @@ std::ptrdiff_t CurvesBeside::candidates(const WarpingOptions& options, double cu
         points += is_above ? sizes_[static_cast<std::size_t>(lane)] : 0;
     }
     poller.spend(columns_ * count);
-    if (found > most) return -1;
+    saved = efforts.saved(count, found);
+    if (saved < 0.0) return -1;
     if (poller.count_steps(n * points, 0)) throw Stopped();
     return found;
 }

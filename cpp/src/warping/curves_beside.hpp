@@ -49,9 +49,11 @@ class CurvesBeside {
                         std::ptrdiff_t count, double* out, Poller& poller);
     // Writes the places of the curves from number `first` on, counted from there, whose distances
     // from P may be at most `cutoff`, returns their number, and counts the others' steps. There is
-    // room for all. Returns -1 if it is faster to compute all distances.
+    // room for all. Writes the saved time, divided by that of the bounds. Returns -1 if it is
+    // faster to compute all distances.
     std::ptrdiff_t candidates(const WarpingOptions& options, double cutoff, const P& curve,
-                              std::ptrdiff_t first, std::ptrdiff_t* places, Poller& poller);
+                              std::ptrdiff_t first, std::ptrdiff_t* places, double& saved,
+                              Poller& poller);
     // Writes a lower bound of the distance of P and each curve. One above `cutoff` may be any other
     // that is. Returns false if P, or one of the curves, lacks a bound.
     bool bounds(const WarpingOptions& options, double cutoff, const P& curve, double* out,

@@ -113,8 +113,9 @@ class WarpingMeasure::Beside {
         return curves_.distances(measure.options_, P, first, out, poller);
     }
     std::ptrdiff_t candidates(const WarpingMeasure& measure, double cutoff, const PreparedP& P,
-                              std::ptrdiff_t first, std::ptrdiff_t* places, Poller& poller) {
-        return curves_.candidates(measure.options_, cutoff, P, first, places, poller);
+                              std::ptrdiff_t first, std::ptrdiff_t* places, double& saved,
+                              Poller& poller) {
+        return curves_.candidates(measure.options_, cutoff, P, first, places, saved, poller);
     }
     bool bounds(const WarpingMeasure& measure, double cutoff, const PreparedP& P, double* out,
                 Poller& poller) {
