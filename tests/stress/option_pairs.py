@@ -2,13 +2,13 @@
 
 Each kind of option is drawn `pairs` times: areas of closed curves against every beginning of Q, the
 areas of polygons and of functions of x against fractions, points that are skipped against curves
-without them, relaxed and open ends against the best of all sections, and common parts against all
-sections. Every hundredth pair has sizes across the strips of the kernels. A tenth of the pairs is
-drawn for frechet_continuous of closed curves, against decisions in whole numbers (up to 7 points)
-and against open curves from beginnings that cover all of Q (up to 12 points). A hundredth of the
-pairs is drawn for the Hausdorff distance of lines, in 40 digits (mpmath). CURVEWISE_ISA chooses the
-level. 100,000 pairs take about an hour. Then the script prints times, next to those without the
-option.
+without them, relaxed and open ends against the best of all sections, common parts against all
+sections, and independent coordinates against a table for each. Every hundredth pair has sizes
+across the strips of the kernels. A tenth of the pairs is drawn for frechet_continuous of closed
+curves, against decisions in whole numbers (up to 7 points) and against open curves from beginnings
+that cover all of Q (up to 12 points). A hundredth of the pairs is drawn for the Hausdorff distance
+of lines, in 40 digits (mpmath). CURVEWISE_ISA chooses the level. 100,000 pairs take about an hour.
+Then the script prints times, next to those without the option.
 """
 
 from __future__ import annotations
@@ -147,6 +147,38 @@ def of_open_ends(rng: Rng) -> bool:
     return math.isclose(value, expected, rel_tol=1e-12)
 
 
+def of_independent_coordinates(rng: Rng) -> bool:
+    P, Q = curves(rng, dim=int(rng.integers(1, 5)))
+    metric, weight = METRICS[rng.integers(4)], int(rng.integers(1, 3))
+    radius = int(rng.integers(1, 6)) if rng.integers(2) else None
+    penalty = float(rng.choice([0.0, 0.5]))
+    expected = 0.0
+    for x, y in zip(P.T.tolist(), Q.T.tolist(), strict=True):
+        costs = [[(a - b) ** 2 if metric == "sqeuclidean" else abs(a - b) for b in y] for a in x]
+        expected += of_costs(costs, weight, penalty, radius)
+    options: dict[str, Any] = {"metric": metric, "window": radius, "penalty": penalty}
+    options |= {"step_pattern": f"symmetric{weight}", "dependent": False}
+    return math.isclose(curvewise.dtw(P, Q, **options), expected, rel_tol=1e-12)
+
+
+def of_costs(costs: list[list[float]], weight: int, penalty: float, radius: int | None) -> float:
+    """Return dtw of a table of distances, by its definition."""
+    n, m = len(costs), len(costs[0])
+    reach = math.inf if radius is None or 1 in (n, m) else radius * (max(n, m) - 1)
+    before = [math.inf] * m
+    for i, row in enumerate(costs):
+        here = [math.inf] * m
+        for j, cost in enumerate(row):
+            if abs(i * (m - 1) - j * (n - 1)) > reach:
+                continue
+            diagonal = before[j - 1] if j else math.inf
+            beside = min(before[j], here[j - 1] if j else math.inf)
+            least = min(beside + cost + penalty, diagonal + weight * cost)
+            here[j] = cost if i == j == 0 else least
+        before = here
+    return before[-1]
+
+
 def of_common_parts(rng: Rng) -> bool:
     """Compare with all pairs of sections."""
     n, m = map(int, rng.integers(1, 6, 2))
@@ -226,6 +258,7 @@ KINDS: dict[str, tuple[Callable[[Rng], bool], float]] = {
     "relax": (of_relaxed_ends, 1.0),
     "open ends": (of_open_ends, 1.0),
     "common_part": (of_common_parts, 1.0),
+    "dtw, not dependent": (of_independent_coordinates, 1.0),
     "frechet_continuous, closed, in whole numbers": (of_decisions_around, 0.1),
     "frechet_continuous, closed, all beginnings": (of_beginnings_between_points, 0.1),
     "hausdorff_continuous, 40 digits": (of_lines, 0.01),
