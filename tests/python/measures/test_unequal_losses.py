@@ -140,6 +140,31 @@ def test_divergence_is_numpys_with_the_limits_of_differences() -> None:
 
 
 @both_packages
+@pytest.mark.parametrize("form", ["lists", "lengths"])
+@every_loss
+def test_gradients_of_batches_are_limits_of_differences(name, measure, options, form) -> None:
+    """By each package's own check; what fills padded curves has no slope."""
+    P, Q = curves_of(LENGTHS[0], 0), curves_of(LENGTHS[1], 1)
+    if form == "lengths":
+        P, Q, options = [padded(P, 0.0)], [padded(Q, 0.0)], options | {"lengths": LENGTHS}
+    function = partial(getattr(getattr(curvewise, name), measure), **options)
+
+    def loss(*curves: Any) -> Any:
+        first, second = curves[: len(P)], curves[len(P) :]
+        return function(*first, *second) if form == "lengths" else function([*first], [*second])
+
+    if name == "torch":
+        import torch
+
+        given = [torch.tensor(curve, requires_grad=True) for curve in (*P, *Q)]
+        assert torch.autograd.gradcheck(loss, given)
+    else:
+        from jax.test_util import check_grads
+
+        check_grads(loss, (*P, *Q), order=1, modes=["rev"], eps=1e-6, rtol=1e-4)
+
+
+@both_packages
 def test_a_model_is_trained_on_unequal_series(name) -> None:
     P, Q = curves_of([5, 9, 7], 0), curves_of([6, 9, 4], 1)
     before, one_by_one = None, list(Q)
