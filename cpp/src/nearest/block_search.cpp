@@ -16,6 +16,10 @@ constexpr double no_bound = -std::numeric_limits<double>::infinity();
 constexpr std::ptrdiff_t many_columns = 512;
 constexpr std::ptrdiff_t first_columns = 128;
 
+// About this number of queries of a block shows whether bounds pay for the others. They lie apart,
+// because queries are often ordered by class.
+constexpr std::size_t tested_queries = 4;
+
 // What raising a bound takes, for the poller: a microsecond.
 constexpr std::int64_t effort_to_raise = 1 << 10;
 
@@ -38,29 +42,45 @@ BlockSearch::BlockSearch(const pairwise::Targets& all, const std::vector<std::pt
 void BlockSearch::answer(const BlockQuery* queries, std::ptrdiff_t count,
                          const Question& question) {
     const OwnCount own_count(poller_);
-    const curves::CheckedCurve* curves[most_queries];
     const auto all = static_cast<std::ptrdiff_t>(targets_.size());
-    count_ = static_cast<std::size_t>(count);
-    for (std::size_t i = 0; i < count_; ++i) {
+    const curves::CheckedCurve* curves[most_queries];
+    const auto size = static_cast<std::size_t>(count);
+    for (std::size_t i = 0; i < size; ++i) {
         curves[i] = rows_[i].curve = queries[i].curve;
         rows_[i].found.begin(question);
         rows_[i].left_out = queries[i].left_out;
         record_.pairs += all - count_left_out(queries[i].left_out);
         rows_[i].query = nullptr;
+        rows_[i].taken.clear();
     }
     block_->set_rows(curves, count, poller_);
-    const double most_candidates = effort_.most_candidates();
-    const bool are_many = targets_.size() >= static_cast<std::size_t>(many_columns);
-    has_bounds_ = most_candidates > (are_many ? 0.1 : 0.25) && trial_.is_due();
     question_ = question;
-    const std::int64_t before = record_.computed;
+    has_bounds_ = effort_.most_candidates() > (all >= many_columns ? 0.1 : 0.25) && trial_.is_due();
+    const bool is_test = has_bounds_ && !have_paid_ && size > tested_queries;
+    const std::size_t step = is_test ? size / tested_queries : 1;
+    rows_now_.clear();
+    for (std::size_t i = 0; i < size; i += step) rows_now_.push_back(i);
+    answer_rows();
+    if (!is_test) return;
+    has_bounds_ = have_paid_;
+    rows_now_.clear();
+    for (std::size_t i = 0; i < size; ++i) {
+        if (i % step != 0) rows_now_.push_back(i);
+    }
+    answer_rows();
+}
+
+void BlockSearch::answer_rows() {
+    const auto all = static_cast<std::ptrdiff_t>(targets_.size());
     for (std::ptrdiff_t first = 0; first < all; first += most_columns) {
         look_at_part(first, std::min(most_columns, all - first));
     }
-    if (has_bounds_) {
-        const auto computed = static_cast<double>(record_.computed - before);
-        trial_.record(computed <= most_candidates * static_cast<double>(count * all));
-    }
+    if (!has_bounds_) return;
+    const double pairs = static_cast<double>(rows_now_.size()) * static_cast<double>(all);
+    std::ptrdiff_t near = 0;
+    for (const std::size_t i : rows_now_) near += rows_[i].count_near();
+    have_paid_ = static_cast<double>(near) <= effort_.most_candidates() * pairs;
+    trial_.record(have_paid_);
 }
 
 std::ptrdiff_t BlockSearch::count_left_out(LeftOut left_out) const noexcept {
@@ -79,7 +99,7 @@ void BlockSearch::look_at_part(std::ptrdiff_t first, std::ptrdiff_t count) {
 }
 
 void BlockSearch::look_at_columns(std::ptrdiff_t column, std::ptrdiff_t end) {
-    for (std::size_t i = 0; i < count_; ++i) {
+    for (const std::size_t i : rows_now_) {
         rows_[i].candidates.clear();
         rows_[i].next = 0;
     }
@@ -87,10 +107,10 @@ void BlockSearch::look_at_columns(std::ptrdiff_t column, std::ptrdiff_t end) {
         const std::ptrdiff_t taken =
             block_->gather(columns_.data() + column, std::min(lanes_, end - column));
         if (taken > 0) {
-            for (std::size_t i = 0; i < count_; ++i) look_at_row(i, column, taken);
+            for (const std::size_t i : rows_now_) look_at_row(i, column, taken);
             column += taken;
         } else {
-            for (std::size_t i = 0; i < count_; ++i) add(rows_[i], column, no_bound);
+            for (const std::size_t i : rows_now_) add(rows_[i], column, no_bound);
             ++column;
         }
     }
@@ -137,10 +157,10 @@ void BlockSearch::keep(Row& row, std::ptrdiff_t column, double distance) {
 }
 
 void BlockSearch::take_turns() {
-    for (std::size_t i = 0; i < count_; ++i) order(rows_[i]);
+    for (const std::size_t i : rows_now_) order(rows_[i]);
     for (bool is_finished = false; !is_finished;) {
         is_finished = true;
-        for (std::size_t i = 0; i < count_; ++i) {
+        for (const std::size_t i : rows_now_) {
             const bool is_taken = raises_bounds_ ? take_nearest(i) : take_next(i);
             is_finished = is_finished && !is_taken;
             if (static_cast<std::ptrdiff_t>(pairs_.size()) == lanes_) compute_pairs();
@@ -175,8 +195,13 @@ bool BlockSearch::take_next(std::size_t i) {
     const double cutoff = row.found.cutoff();
     while (row.next < row.candidates.size() && row.candidates[row.next].bound > cutoff) ++row.next;
     if (row.next == row.candidates.size()) return false;
-    pairs_.emplace_back(static_cast<std::ptrdiff_t>(i), row.candidates[row.next++].column);
+    take(i, row.candidates[row.next++]);
     return true;
+}
+
+void BlockSearch::take(std::size_t i, const Candidate& candidate) {
+    pairs_.emplace_back(static_cast<std::ptrdiff_t>(i), candidate.column);
+    rows_[i].taken.push_back(candidate.bound);
 }
 
 bool BlockSearch::take_nearest(std::size_t i) {
@@ -195,7 +220,7 @@ bool BlockSearch::take_nearest(std::size_t i) {
                 continue;
             }
         }
-        pairs_.emplace_back(static_cast<std::ptrdiff_t>(i), candidate.column);
+        take(i, candidate);
         return true;
     }
     return false;

@@ -11,6 +11,7 @@
 // distances. Memory: the targets in lanes, and a bound for each pair of the block.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -75,6 +76,13 @@ class BlockSearch {
         std::size_t next = 0;
         const curves::CheckedCurve* curve = nullptr;
         std::unique_ptr<pairwise::TargetQuery> query;  // null until a bound is raised
+        runtime::ScratchVector<double> taken;          // bounds of the candidates
+
+        // How many candidates a query takes that knows its last cutoff from the beginning.
+        std::ptrdiff_t count_near() const noexcept {
+            return std::count_if(taken.begin(), taken.end(),
+                                 [most = found.cutoff()](double bound) { return !(bound > most); });
+        }
     };
 
     // Most targets at once, which are in the processor's cache.
@@ -83,6 +91,7 @@ class BlockSearch {
     std::ptrdiff_t target(std::ptrdiff_t column) const noexcept {
         return targets_[static_cast<std::size_t>(first_ + column)];
     }
+    void answer_rows();
     std::ptrdiff_t count_left_out(LeftOut left_out) const noexcept;
     // All queries with a part of the targets.
     void look_at_part(std::ptrdiff_t first, std::ptrdiff_t count);
@@ -100,6 +109,7 @@ class BlockSearch {
     // Until no query has another target.
     void take_turns();
     void order(Row& row) const;
+    void take(std::size_t i, const Candidate& candidate);
     bool take_next(std::size_t i);
     bool take_nearest(std::size_t i);
     void raise(Row& row, Candidate& candidate);
@@ -114,13 +124,14 @@ class BlockSearch {
     std::ptrdiff_t first_ = -1;                       // of the targets that are columns
     runtime::ScratchVector<std::ptrdiff_t> columns_;  // 0, 1, ...
     runtime::ScratchVector<Row> rows_;
-    std::size_t count_ = 0;  // of the rows
+    runtime::ScratchVector<std::size_t> rows_now_;  // that are answered
     runtime::ScratchVector<double> values_;
     runtime::ScratchVector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> pairs_;
     Question question_;
     bool has_bounds_ = false;
+    bool have_paid_ = false;  // the last bounds
     bool raises_bounds_ = false;
-    pairwise::Trial trial_;
+    pairwise::Trial trial_{0, 7};
     SearchRecord record_;
 };
 

@@ -47,7 +47,8 @@ BlockSize QueryRun::block_size() const {
                                        [&](const CheckedCurve& P) { return P.curve.size() == n; });
     const std::ptrdiff_t m = *view_.sizes->begin();
     if (!are_equal) return {};
-    return {targets_.most_beside(n, m), targets_.effort_beside(n, m)};
+    const pairwise::BesideEffort effort = targets_.effort_beside(n, m);
+    return {effort.is_wide ? 1 : targets_.most_beside(n, m), effort};
 }
 
 void QueryRun::run_blocks(const BlockSize& size, std::ptrdiff_t workers, Poller& poller) {

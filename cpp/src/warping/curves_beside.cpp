@@ -52,6 +52,9 @@ bool needs_no_scale(const WarpingOptions& options, const curves::CheckedCurve& c
 // Measured at each level, with and without a band.
 constexpr std::ptrdiff_t most_cells = 100;
 constexpr std::ptrdiff_t most_cells_of_roots = 64;
+// With more, no band and few coordinates, a search that gives pairs up early takes less time one by
+// one.
+constexpr std::ptrdiff_t most_searched_cells = 64;
 // So that the row and the points stay near the processor.
 constexpr std::ptrdiff_t most_columns = 1024;
 
@@ -67,12 +70,15 @@ std::ptrdiff_t cells_of_row(const Window& window, std::ptrdiff_t n, std::ptrdiff
     return std::min(m, 2 * reach + 1);
 }
 
+bool has_roots(const WarpingOptions& options, std::ptrdiff_t dim) noexcept {
+    return options.rule != kernels::Rule::frechet &&
+           canonical_metric(options.ground, dim) == Metric::euclidean;
+}
+
 // Whether so many pairs of n and m points take less time together than one by one.
 bool saves_time(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m,
                 std::ptrdiff_t dim, std::ptrdiff_t pairs) noexcept {
-    const bool has_roots = options.rule != kernels::Rule::frechet &&
-                           canonical_metric(options.ground, dim) == Metric::euclidean;
-    const std::ptrdiff_t most = has_roots ? most_cells_of_roots : most_cells;
+    const std::ptrdiff_t most = has_roots(options, dim) ? most_cells_of_roots : most_cells;
     return m <= most_columns && cells_of_row(options.window, n, m) * lanes_beside() <= most * pairs;
 }
 
@@ -127,11 +133,19 @@ pairwise::BesideEffort CurvesBeside::effort(const WarpingOptions& options, std::
                                             std::ptrdiff_t m, std::ptrdiff_t dim) noexcept {
     const std::ptrdiff_t points = (n + m) * dim;
     const std::ptrdiff_t table = n * cells_of_row(options.window, n, m) * dim;
+    const bool have_roots = has_roots(options, dim);
     pairwise::BesideEffort effort;
-    effort.value = static_cast<double>(table);
-    effort.bound = static_cast<double>((m + 30) * dim);
-    effort.candidate = static_cast<double>(table + table / 3 + 3 * points + 60);
-    effort.is_large = table > 9000 + 12 * points;
+    effort.value = static_cast<double>(have_roots ? 2 * table : table);
+    effort.bound = static_cast<double>((m + 30) * (dim > 2 ? 2 * dim : dim));
+    // Both curves are interleaved, and read again for each cell.
+    const double reading = have_roots ? 1.1 : dim > 2 ? 1.5 : 1.2;
+    effort.candidate = reading * effort.value + static_cast<double>(3 * points + 60);
+    // A box for each point, or several for all (PairBounds).
+    const bool has_own_boxes = dim == 1 || options.window.radius || options.window.fraction;
+    const std::ptrdiff_t later_bounds =
+        has_own_boxes ? 3000 + 4 * points : 1000 * dim + 48 * points;
+    effort.is_large = table > 3 * later_bounds;
+    effort.is_wide = dim <= 3 && cells_of_row(options.window, n, m) == m && m > most_searched_cells;
     return effort;
 }
 
@@ -191,7 +205,7 @@ bool CurvesBeside::distances(const WarpingOptions& options, const P& curve, std:
     const std::ptrdiff_t width = active_level().kernels->lanes;
     const std::ptrdiff_t skipped = first / width * width;
     sweep.functions.sweep({curve.packed.data(), curve.packed.stride(), points_.data() + skipped,
-                           stride_, n, ends_.data(), ends_.data() + n,
+                           stride_, static_cast<int>(dim_), n, ends_.data(), ends_.data() + n,
                            (count_ - skipped + width - 1) / width, row_.data() + skipped});
     finish(options, sweep.root, n, first, out, poller);
     return true;
@@ -237,9 +251,9 @@ bool CurvesBeside::pair_distances(const WarpingOptions& options, const P* const*
     interleave(curve, PointOrder::forward, stride_, n, stride_, points_of_each_.data());
     count_ = count;
     limit_rows(options, n);
-    sweep.functions.sweep_pairs({points_of_each_.data(), stride_, points_.data(), stride_, n,
-                                 ends_.data(), ends_.data() + n, kernels::most_packs_beside,
-                                 row_.data()});
+    sweep.functions.sweep_pairs({points_of_each_.data(), stride_, points_.data(), stride_,
+                                 static_cast<int>(dim_), n, ends_.data(), ends_.data() + n,
+                                 kernels::most_packs_beside, row_.data()});
     finish(options, sweep.root, n, 0, out, poller);
     return true;
 }
@@ -282,6 +296,7 @@ void CurvesBeside::bound_lanes(const WarpingOptions& options, const Sweep& sweep
     beside.p_stride = curve.packed.stride();
     beside.q = points_.data() + skipped;
     beside.stride = stride_;
+    beside.dim = static_cast<int>(dim_);
     beside.rows = n;
     beside.columns = fewest;
     beside.has_last = fewest == columns_;

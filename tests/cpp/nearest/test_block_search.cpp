@@ -119,7 +119,7 @@ void bounds_and_values_hold() {
     Random random(31);
     for (const Case& tested : cases()) {
         for (const std::ptrdiff_t n : {1, 2, 9, 40}) {
-            const std::ptrdiff_t dim = 1 + random.index(2);
+            const std::ptrdiff_t dim = 1 + random.index(5);
             const check::Note note(tested.name + ", " + std::to_string(n) + " points");
             Pairs pairs(tested.measure, random, 37, n, dim);
             const auto block = pairs.targets->make_block();
@@ -195,7 +195,7 @@ void a_search_finds_what_comes_first() {
         for (const int count : {1, 8, 33, 70}) {
             const check::Note note(tested.name + ", " + std::to_string(count) + " targets");
             const std::ptrdiff_t n = 24;
-            Pairs pairs(tested.measure, random, count, n, 1 + random.index(2));
+            Pairs pairs(tested.measure, random, count, n, 1 + random.index(5));
             std::vector<std::ptrdiff_t> some;
             for (int j = 0; j < count; ++j) {
                 if (j % 7 != 3) some.push_back(j);

@@ -45,7 +45,7 @@ def single_calls(measure: str, curves: Any, options: dict[str, Any]) -> np.ndarr
     return np.array([function(P, Q, **options) for P, Q in combinations(curves, 2)])
 
 
-@pytest.mark.parametrize("dim", [1, 2, 3])
+@pytest.mark.parametrize("dim", [1, 2, 3, 8, 9])
 @pytest.mark.parametrize(("measure", "options"), OPTIONS)
 @pytest.mark.parametrize("n", [1, 2, 3, 17, 32, 65])
 def test_equal_curves(measure, options, dim, n):

@@ -71,7 +71,7 @@ def check(
 
 
 @pytest.mark.parametrize(("measure", "options"), OPTIONS)
-@pytest.mark.parametrize("dim", [1, 2])
+@pytest.mark.parametrize("dim", [1, 2, 5])
 @pytest.mark.parametrize("n", [1, 2, 8, 24, 65])
 def test_equal_to_brute_force_around_full_vectors(measure, options, dim, n):
     random = np.random.default_rng([n, dim, len(measure)])

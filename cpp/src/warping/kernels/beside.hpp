@@ -12,7 +12,7 @@ namespace curvewise::kernels {
 inline constexpr std::ptrdiff_t most_packs_beside = 4;
 
 // The most coordinates of curves that there are functions for.
-inline constexpr std::ptrdiff_t most_dim_beside = 2;
+inline constexpr std::ptrdiff_t most_dim_beside = 8;
 
 struct Beside {
     // Coordinate c of row i is p[c * p_stride + i], for one curve in all lanes, or as for columns;
@@ -22,6 +22,7 @@ struct Beside {
     std::ptrdiff_t p_stride;
     const double* q;
     std::ptrdiff_t stride;
+    int dim;
     std::ptrdiff_t rows;
     // Row i holds columns first_column[i]..last_column[i]; both never fall from row to row.
     const std::ptrdiff_t* first_column;
@@ -41,6 +42,7 @@ struct BoundsBeside {
     std::ptrdiff_t p_stride;
     const double* q;
     std::ptrdiff_t stride;
+    int dim;
     std::ptrdiff_t rows;
     std::ptrdiff_t columns;  // at least 2
     bool has_last;

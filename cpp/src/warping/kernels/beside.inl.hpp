@@ -5,27 +5,59 @@
 
 #include "sweep.inl.hpp"
 
+// Of the curves in P's place, as in Beside.
+struct Points {
+    const double* data;
+    std::ptrdiff_t stride;
+    int dim;
+};
+
 // What a column's points are compared with: a row's point, the same in all lanes; a point in each
 // lane; or the nearest point of a box. The difference in coordinate c of pack number k.
+// Coordinates are counted while the program is compiled or, for a `fixed_dim` of 0, runs.
 template <int fixed_dim>
 struct OnePoint {
     static constexpr int dim = fixed_dim;
     Pack point[dim];
 
-    OnePoint(const double* p, std::ptrdiff_t p_stride, std::ptrdiff_t row) noexcept {
-        for (int c = 0; c < dim; ++c) point[c] = simd::pset1<Pack>(p[c * p_stride + row]);
+    OnePoint(const Points& p, std::ptrdiff_t row) noexcept {
+        for (int c = 0; c < dim; ++c) point[c] = simd::pset1<Pack>(p.data[c * p.stride + row]);
     }
     Pack difference(const Pack& q, int c, int) const noexcept { return simd::psub(point[c], q); }
 };
 
+template <>
+struct OnePoint<0> {
+    const double* point;
+    std::ptrdiff_t stride;
+    int dim;
+
+    OnePoint(const Points& p, std::ptrdiff_t row) noexcept
+        : point(p.data + row), stride(p.stride), dim(p.dim) {}
+    Pack difference(const Pack& q, int c, int) const noexcept {
+        return simd::psub(simd::pset1<Pack>(point[c * stride]), q);
+    }
+};
+
+// The number of coordinates.
 template <int fixed_dim>
-struct PointOfEach {
+struct Dim {
     static constexpr int dim = fixed_dim;
+    explicit Dim(int) noexcept {}
+};
+template <>
+struct Dim<0> {
+    int dim;
+    explicit Dim(int given) noexcept : dim(given) {}
+};
+
+template <int fixed_dim>
+struct PointOfEach : Dim<fixed_dim> {
     const double* points;
     std::ptrdiff_t stride;
 
-    PointOfEach(const double* p, std::ptrdiff_t p_stride, std::ptrdiff_t row) noexcept
-        : points(p + row * dim * p_stride), stride(p_stride) {}
+    PointOfEach(const Points& p, std::ptrdiff_t row) noexcept
+        : Dim<fixed_dim>(p.dim), points(p.data + row * this->dim * p.stride), stride(p.stride) {}
     Pack difference(const Pack& q, int c, int k) const noexcept {
         return simd::psub(load(points + c * stride + k * width), q);
     }
@@ -48,12 +80,27 @@ struct NearestInBox {
     }
 };
 
+template <>
+struct NearestInBox<0> {
+    const BoundsBeside& beside;
+    std::ptrdiff_t column;
+    int dim;
+
+    NearestInBox(const BoundsBeside& all, std::ptrdiff_t its_column) noexcept
+        : beside(all), column(its_column), dim(all.dim) {}
+    Pack difference(const Pack& q, int c, int) const noexcept {
+        const Pack low = simd::pset1<Pack>(beside.low[c][-column]);
+        const Pack high = simd::pset1<Pack>(beside.high[c][-column]);
+        return simd::psub(simd::pmax(simd::pmin(q, high), low), q);
+    }
+};
+
 // The ground distance to a column's points, with coordinate c of a pack at q + c * stride.
 struct SquaresBeside {
     template <class Points>
     static Pack of(const Points& points, const double* q, std::ptrdiff_t stride, int k) noexcept {
         Pack sum = square(points, q, 0, k);
-        for (int c = 1; c < Points::dim; ++c) {
+        for (int c = 1; c < points.dim; ++c) {
             sum = simd::padd(sum, square(points, q + c * stride, c, k));
         }
         return sum;
@@ -100,9 +147,10 @@ struct CellsBeside {
     }
 };
 
-template <class Rule, class GroundCost, class Points, int packs>
+template <class Rule, class GroundCost, class At, int packs>
 void sweep_beside(const Beside& beside) noexcept {
-    constexpr int dim = Points::dim;
+    const Points all{beside.p, beside.p_stride, beside.dim};
+    const std::ptrdiff_t dim = At(all, 0).dim;
     const Pack infinite = simd::pset1<Pack>(std::numeric_limits<double>::infinity());
     const auto nothing = [&](const double*) { return infinite; };
     const std::ptrdiff_t stride = beside.stride;
@@ -118,7 +166,7 @@ void sweep_beside(const Beside& beside) noexcept {
             cells.diagonal[k] =
                 has_diagonal ? load(beside.row + (first - 1) * stride + k * width) : infinite;
         }
-        const Points points(beside.p, beside.p_stride, i);
+        const At points(all, i);
         const std::ptrdiff_t last_below = last_above < last ? last_above : last;
         const double* q = beside.q + first * dim * stride;
         double* to = beside.row + first * stride;
@@ -136,22 +184,22 @@ void sweep_beside(const Beside& beside) noexcept {
 
 template <class Rule, class GroundCost, int dim>
 void sweep_packs_beside(const Beside& beside) noexcept {
-    using Points = OnePoint<dim>;
+    using At = OnePoint<dim>;
     switch (beside.packs) {
         case 1:
-            return sweep_beside<Rule, GroundCost, Points, 1>(beside);
+            return sweep_beside<Rule, GroundCost, At, 1>(beside);
         case 2:
-            return sweep_beside<Rule, GroundCost, Points, 2>(beside);
+            return sweep_beside<Rule, GroundCost, At, 2>(beside);
         case 3:
-            return sweep_beside<Rule, GroundCost, Points, 3>(beside);
+            return sweep_beside<Rule, GroundCost, At, 3>(beside);
         default:
-            return sweep_beside<Rule, GroundCost, Points, 4>(beside);
+            return sweep_beside<Rule, GroundCost, At, 4>(beside);
     }
 }
 
 // Distances are added up or, for Fréchet, the largest counts. The sum of DTW in either form is at
 // least that of the columns' least distances, each paid for once.
-template <bool is_largest, class GroundCost, int dim>
+template <bool is_largest, class GroundCost, int fixed_dim>
 void bounds_beside(const BoundsBeside& beside) noexcept {
     constexpr std::ptrdiff_t columns_between_tests = 8;
     const std::ptrdiff_t stride = beside.stride;
@@ -159,8 +207,9 @@ void bounds_beside(const BoundsBeside& beside) noexcept {
     const auto with = [](const Pack& total, const Pack& d) {
         return is_largest ? simd::pmax(total, d) : simd::padd(total, d);
     };
-    const OnePoint<dim> first(beside.p, beside.p_stride, 0);
-    const OnePoint<dim> last(beside.p, beside.p_stride, beside.rows - 1);
+    const Points all{beside.p, beside.p_stride, beside.dim};
+    const OnePoint<fixed_dim> first(all, 0), last(all, beside.rows - 1);
+    const std::ptrdiff_t dim = first.dim;
     for (std::ptrdiff_t k = 0; k < beside.packs; ++k) {
         const double* const q = beside.q + k * width;
         Pack total = GroundCost::of(first, q, stride, 0);
@@ -172,7 +221,7 @@ void bounds_beside(const BoundsBeside& beside) noexcept {
             const std::ptrdiff_t stop =
                 end - j < columns_between_tests ? end : j + columns_between_tests;
             for (; j < stop; ++j) {
-                const NearestInBox<dim> box(beside, j);
+                const NearestInBox<fixed_dim> box(beside, j);
                 total = with(total, GroundCost::of(box, q + j * dim * stride, stride, 0));
             }
         }
@@ -190,16 +239,18 @@ constexpr BesideKernels beside_kernels() noexcept {
 // None for other ground distances and dimensions.
 template <class Rule>
 BesideKernels select_beside_of(Cost cost, std::ptrdiff_t dim) noexcept {
-    if (cost.is_own) return {};
+    if (cost.is_own || dim > most_dim_beside) return {};
     if (cost.metric == Metric::cityblock && dim == 1) {
         return beside_kernels<Rule, AbsolutesBeside, 1>();
     }
     if (cost.metric == Metric::sqeuclidean) {
         if (dim == 1) return beside_kernels<Rule, SquaresBeside, 1>();
         if (dim == 2) return beside_kernels<Rule, SquaresBeside, 2>();
+        return beside_kernels<Rule, SquaresBeside, 0>();
     }
-    if (cost.metric == Metric::euclidean && cost.squares_in_domain && dim == 2) {
-        return beside_kernels<Rule, RootsBeside, 2>();
+    if (cost.metric == Metric::euclidean && cost.squares_in_domain) {
+        if (dim == 2) return beside_kernels<Rule, RootsBeside, 2>();
+        if (dim > 2) return beside_kernels<Rule, RootsBeside, 0>();
     }
     return {};
 }
