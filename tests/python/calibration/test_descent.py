@@ -34,9 +34,15 @@ class Scripted(Descent):
     value = 10.0  # type: ignore[assignment]
 
     def __init__(
-        self, gains: Sequence[float], rules: Rules = RULES, *, unknown: int = 0, hops: int = 0
+        self,
+        gains: Sequence[float],
+        rules: Rules = RULES,
+        *,
+        unknown: int = 0,
+        hops: int = 0,
+        is_largest: bool = False,
     ) -> None:
-        inner = SimpleNamespace(negligible=0.0, is_smooth=True)
+        inner = SimpleNamespace(negligible=0.0, is_smooth=True, is_largest=is_largest)
         runs: Any = SimpleNamespace(
             inner=inner,
             has_slopes=False,
@@ -117,6 +123,19 @@ def test_a_search_that_hops_to_another_minimum_goes_on():
     assert finish_of(search)[0]
     assert search.radii == [0.05, 0.15]
     assert search.hops == -1
+
+
+@pytest.mark.parametrize(
+    ("gains", "is_early"), [([-1.0] * 4, True), ([-1.0, -1.0, 1.0, -1.0, -1.0], False)]
+)
+def test_other_minima_of_a_largest_distance_have_their_turn_after_three_failed_steps(
+    gains, is_early
+):
+    largest, other = Scripted(gains, hops=9, is_largest=True), Scripted(gains, hops=9)
+    for search in (largest, other):
+        finish_of(search)
+    assert largest.radii[:3] == other.radii[:3]
+    assert (largest.radii[3:5] != other.radii[3:5]) == is_early
 
 
 def test_steps_come_to_an_end():

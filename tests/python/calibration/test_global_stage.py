@@ -13,7 +13,11 @@ from curvewise.calibration.methods.global_stage import GlobalStage
 from curvewise.calibration.methods.runs import Runs
 from curvewise.calibration.surfaces.evolution import evolved
 from curvewise.calibration.surfaces.inner_search import CurveSearch
-from curvewise.calibration.surfaces.kriged_surface import KrigedSurface, lowest_value
+from curvewise.calibration.surfaces.kriged_surface import (
+    KrigedSurface,
+    lowest_value,
+    surface_by_sensitivity,
+)
 
 # Two points, too far apart for any other coupling: the longer of two distances counts.
 TEST = np.array([[0.0, 0.0], [100.0, 0.0]])
@@ -54,8 +58,9 @@ def test_the_lower_minimum_is_found_behind_a_ridge(measure):
 
 
 def test_the_whole_box_is_searched_on_the_surface_of_the_best_runs():
-    _, search = stage([*RUNS, 0.6], "dtw")
-    found = [place for place in (search.wide() for _ in range(6)) if place is not None]
+    runs, search = stage([*RUNS, 0.6], "dtw")
+    proposals = (search.anywhere(runs.best, None) for _ in range(6))
+    found = [place for place in proposals if place is not None]
     assert min(abs(place[0] - 0.7) for place, _ in found) < 0.02
 
 
@@ -100,6 +105,39 @@ def test_a_surface_of_few_runs_passes_through_each():
     points = random.random((8, 3))
     bent = np.sin(3.0 * points @ random.normal(size=(3, 20)))
     np.testing.assert_allclose(KrigedSurface(points, bent, points[0]).at(points), bent, atol=1e-3)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_metric_of_sensitivity_predicts_curves_of_one_combination_of_parameters(seed):
+    """The curves respond to a single direction askew, and hardly to the others."""
+    random = np.random.default_rng(seed)
+    direction = np.array([0.6, -0.5, 0.3, -0.4])
+    frequencies = random.uniform(2.0, 6.0, 30)
+
+    def curves(points: np.ndarray) -> np.ndarray:
+        return np.sin(np.outer(points @ direction, frequencies)) + 1e-3 * points[:, :1]
+
+    points, others = random.random((40, 4)), random.random((50, 4))
+    sides, vectors = np.ones(30), curves(points)
+    plain = KrigedSurface(points, vectors, points[0], sides)
+    metric = surface_by_sensitivity(points, vectors, points[0], sides, points[:20])
+    np.testing.assert_allclose(metric.at(points[0]), vectors[0], atol=1e-6)
+    errors = [np.abs(surface.at(others) - curves(others)).mean() for surface in (plain, metric)]
+    assert errors[1] < 0.5 * errors[0]
+
+
+def test_slopes_of_a_surface_with_a_metric_are_those_of_its_values():
+    random = np.random.default_rng(0)
+    points = random.random((40, 3))
+    vectors = np.exp(3.0 * points @ random.normal(size=(3, 7)))
+    surface = surface_by_sensitivity(points, vectors, points[0], np.ones(7), points[:20])
+    place, weights = np.array([0.4, 0.5, 0.6]), random.normal(size=7)
+    there, slopes = surface.with_slopes(place)
+    np.testing.assert_allclose(there, surface.at(place), rtol=1e-12)
+    steps = [surface.at(place + step) - surface.at(place - step) for step in 1e-6 * np.eye(3)]
+    np.testing.assert_allclose(slopes, np.array(steps).T / 2e-6, rtol=1e-5, atol=1e-5)
+    _, chain_rule = surface.with_chain_rule(place)
+    np.testing.assert_allclose(chain_rule(weights), weights @ slopes, rtol=1e-9)
 
 
 def test_a_run_far_away_bends_the_surface_near_the_centre_little():

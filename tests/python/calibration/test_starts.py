@@ -243,7 +243,7 @@ def test_starts_that_disagree_are_followed_by_others(
     values, count, alike, made, at_once, monkeypatch
 ):
     monkeypatch.setattr("curvewise.calibration.methods.multistart.Descent", Listed)
-    monkeypatch.setattr(GlobalStage, "wide", lambda stage: (np.full(2, 0.7), 1.0))
+    monkeypatch.setattr(GlobalStage, "anywhere", lambda *_: (np.full(2, 0.7), 1.0))
     Listed.values, Listed.begun, Listed.made = list(values), [], made
     run = SimpleNamespace(failed=False, value=9.0, simulations=(np.zeros((2, 2)),))
     ledger: Any = SimpleNamespace(
@@ -282,7 +282,7 @@ class Slow(Descent):
 class Known:
     """An inner search for which only the values of runs count."""
 
-    negligible, sides, is_smooth = 0.0, None, True
+    negligible, sides, is_smooth, is_largest = 0.0, None, True, False
 
     def taken(self, run: Any) -> tuple[np.ndarray, float]:
         return np.zeros(1), run.value

@@ -3,7 +3,8 @@
 Each iteration minimises the surrogate within a trust region around the best run and runs the model
 at the minimiser. The radius follows the ratio of actual to predicted reduction. If the predicted
 reduction is negligible, geometry-improving steps run the model in directions with poor sampling. If
-there are none, the global stage proposes other minima. If it proposes none, the start has ended. A
+there are none, the global stage proposes other minima. If it proposes none, the start has ended.
+For the largest of many distances it proposes after three failed steps, because minima are many. A
 start is abandoned if it is far above the best run and predicts only a small part of the difference.
 If repeated steps do not achieve their predicted reduction, the start continues with a surrogate of
 the value (`lowest_value`).
@@ -44,7 +45,9 @@ _AFTER_HOP = 0.15  # the region after a restart next to another minimum
 _FEW = 2  # up to this number of parameters, each independent start runs its own initial design
 _SHORTER = 0.05  # sides of the region after a run that failed, of some of its axes
 _MISLED = 5  # excess of failed over good steps that marks a surrogate of curves as misleading
-_REACHES = (0.4, 0.1, 0.025)  # restart distances from the best run
+_IN_VAIN = 3  # steps that fail in a row, after which the minima of a largest distance have turns
+_HOPS_IN_VAIN = 20  # proposals of several clouds that fail in a row
+_REACHES = (0.4, 0.1, None, 0.025)  # restart distances from the best run; None is anywhere
 _OF_VALUE = 2e-3  # the least predicted reduction of a restart, as a fraction of the value
 # A start whose value is above the best by a larger part is far above it, and abandoned if it
 # predicts less than that part of the difference.
@@ -103,6 +106,7 @@ class Descent:
         self._sides = np.ones(runs.points.shape[1])  # of the region, in each direction
         self._tried: set[tuple[float, ...]] = set()
         self._failed = 0  # steps, less those that were good
+        self._in_vain = 0  # steps that have failed since the last one that did not
         self._by_value = False
         self._noise = Noise(0.0, 0.0)
         self._reach = rules.diff_step  # radius within which every direction must be sampled
@@ -148,6 +152,13 @@ class Descent:
             least = max(self._runs.inner.negligible, rules.gain * self.value)
             if self._is_behind(promised):
                 return Finish(False, "another start is far ahead")
+            if self._in_vain >= _IN_VAIN and self._roams:
+                self._in_vain = 0
+                if rules.is_abandoned and self._is_far():
+                    return Finish(False, "another start is far ahead")
+                if (yield from self._hops(least)):
+                    radius = max(radius, _AFTER_HOP)
+                    continue
             if promised <= least or radius < rules.tol:
                 if (yield from self._looks_around()):
                     radius = max(radius, _FAR * self._reach)  # as far as the new runs support
@@ -171,6 +182,7 @@ class Descent:
             return radius
         gain = before - self._last
         has_failed = gain < POOR * promised
+        self._in_vain = self._in_vain + 1 if has_failed else 0
         if has_failed and np.isfinite(self._last):
             noise = self._runs.noise(self._best, self._reach).of_value
             self._failed += promised > 2.0 * noise
@@ -273,6 +285,8 @@ class Descent:
 
     def _hops(self, least: float) -> Part[bool]:
         """Run the proposals of the global stage; return whether one is better."""
+        if self._roams:
+            return (yield from self._hops_anywhere(least))
         if self._runs.has_slopes and self._runs.inner.is_smooth:
             return False  # another start costs less
         assert self._best is not None
@@ -281,9 +295,9 @@ class Descent:
             return False
         for reach in _REACHES:
             for _ in range(2):
-                if self.value > (1.0 + _CLOSE) * min(self._runs.values):
+                if self._is_far():
                     return False
-                found = self._stage.lowest(self._best, reach * self._sides, self._seen(reach))
+                found = self._proposal(reach)
                 if found is None or found[1] <= max(least, _OF_VALUE * self.value):
                     break
                 yield from self._run(found[0][np.newaxis])
@@ -292,6 +306,38 @@ class Descent:
                     return True
         self._runs.exhausted.append(centre)
         return False
+
+    @property
+    def _roams(self) -> bool:
+        """Whether minima are so many that proposals come from everywhere, and early."""
+        return self._runs.inner.is_largest and not self._runs.has_slopes
+
+    def _hops_anywhere(self, least: float) -> Part[bool]:
+        """Run proposals until so many in a row fail; return whether one was better."""
+        before, centre, failed = self.value, self.centre, 0
+        while failed < _HOPS_IN_VAIN and not self._is_far() and not self._runs.is_exhausted(centre):
+            found = self._proposal(None)
+            if found is None or found[1] <= max(least, _OF_VALUE * self.value):
+                break
+            value = self.value
+            yield from self._run(found[0][np.newaxis])
+            self._sides = self._drawn_sides()
+            failed = 0 if value - self.value > POOR * found[1] else failed + 1
+        if before - self.value > least:
+            return True
+        self._runs.exhausted.append(centre)
+        return False
+
+    def _proposal(self, reach: float | None) -> tuple[Array, float] | None:
+        """Return what the global stage proposes within a reach, or anywhere."""
+        assert self._best is not None
+        if reach is None:
+            return self._stage.anywhere(self._best, self._seen(_AFTER_HOP))
+        return self._stage.lowest(self._best, reach * self._sides, self._seen(reach))
+
+    def _is_far(self) -> bool:
+        """Return whether another start is so far ahead that other minima are left to it."""
+        return self.value > (1.0 + _CLOSE) * min(self._runs.values)
 
     def _end(self, radius: float, promised: float, least: float) -> Finish:
         assert self._best is not None

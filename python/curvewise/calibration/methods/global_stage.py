@@ -3,9 +3,10 @@
 A local search ends in the nearest local minimum, and measures of curves have many close together. A
 surrogate predicts them before the model is run. CMA-ES (`surfaces.evolution`) searches two
 surrogates: that of the runs around the best one, along the principal axes of the curves'
-sensitivity, and that of the best hundred runs. The inner search polishes the result.
+sensitivity, and, with clouds of several widths, that of the best runs, whose metric is that
+sensitivity. The inner search polishes the result.
 
-Cost: about 400 evaluations of the measure on predicted curves, and no run of the model.
+Cost: 400 to 900 evaluations of the measure on predicted curves, and no run of the model.
 
 D. J. Wales, J. P. K. Doye, "Global optimization by basin-hopping", J. Phys. Chem. A 101 (1997)
 5111-5116.
@@ -26,7 +27,8 @@ __all__ = ["GlobalStage"]
 
 _LEAST = 0.03  # of the reach: the shortest principal axis
 _POLISHED = 0.05  # how far the inner search may move what CMA-ES finds
-_BEST = 100  # runs in the wide surface; CMA-ES begins at one of the best FEW
+# Of clouds: the first begins at a given run, the others at one of the best FEW.
+_WIDTHS, _MEMBERS, _SETTLED = (0.05, 0.15, 0.3), 10, 1e-3
 
 
 class GlobalStage:
@@ -56,19 +58,30 @@ class GlobalStage:
         found = np.clip(centre + axes @ (moves - 0.5), low, high)
         return self._promised(surface, number, found)
 
-    def wide(self) -> tuple[Array, float] | None:
-        """Return the lowest place of all and its predicted reduction.
+    def anywhere(self, number: int, seen: Rows | None) -> tuple[Array, float] | None:
+        """Return the lowest place of several clouds, and its predicted reduction below a run.
 
-        Return None if a run exists at that place.
+        The surrogate uses the runs `seen`, or all. Return None if a run exists at that place.
         """
-        surface = self._runs.surface_through_best(_BEST)
-        best = np.argsort(self._runs.values, kind="stable")[:FEW]
-        start = self._runs.points[int(self._random.choice(best))]
-        inner = self._runs.inner
-        found = evolved(
-            lambda points: inner.values(surface, points, roughly=True), start, self._random
-        )
-        return self._promised(surface, self._runs.best, found)
+        surface = self._runs.surface_by_sensitivity(number, seen)
+
+        def function(points: Array) -> Array:
+            return self._runs.inner.values(surface, points, roughly=True)
+
+        others = self._random.choice(self._runs.best_of(FEW, seen), len(_WIDTHS) - 1)
+        clouds = [
+            evolved(
+                function,
+                self._runs.points[start],
+                self._random,
+                width=width,
+                members=_MEMBERS,
+                settled=_SETTLED,
+            )
+            for start, width in zip((number, *others), _WIDTHS, strict=True)
+        ]
+        lowest = int(np.argmin(function(np.array(clouds))))
+        return self._promised(surface, number, clouds[lowest])
 
     def _promised(self, surface: Surface, number: int, found: Array) -> tuple[Array, float] | None:
         inner = self._runs.inner

@@ -11,7 +11,7 @@ from ...curves.thinning import Rows
 from ..problem.ledger import Ledger
 from ..records.evaluation import Evaluation
 from ..surfaces.inner_search import InnerSearch
-from ..surfaces.kriged_surface import KrigedSurface
+from ..surfaces.kriged_surface import KrigedSurface, surface_by_sensitivity
 from ..surfaces.surfaces import Surface, Surfaces
 from .starts import WITHIN
 
@@ -21,6 +21,7 @@ _NEAREST = 30  # runs that make a surrogate, at most; 3 k + 3 where that is more
 # Directions around a point are known if in each of them the runs within _AROUND times a reach are
 # spread by this much, in squares of the reach.
 _AROUND, _SPREAD = 3.0, 0.3
+_BEST, _SENSITIVE = 160, 20  # best runs in the surface by sensitivity, and of which it takes that
 _NOISY = 1e-3  # of the bounding box: smaller noise counts as 0
 
 
@@ -106,17 +107,30 @@ class Runs:
 
     def surface(self, number: int, within: float, seen: Rows | None = None) -> KrigedSurface:
         """Return the surface through the 2 k + 1 nearest runs seen and those within reach."""
-        among = np.arange(len(self.values)) if seen is None else seen
+        among = self._among(seen)
         distances = np.abs(self.points[among] - self.points[number]).max(axis=1)
         k = self._ledger.dimensions
         near = np.argsort(distances, kind="stable")[: max(_NEAREST, 3 * k + 3)]
         near = near[: max(2 * k + 1, int(np.sum(distances[near] <= within)))]
-        return self._through(number, among[near])
+        chosen, centre = among[near], self.points[number]
+        vectors = np.array([self._vectors[i] for i in chosen])
+        return KrigedSurface(self.points[chosen], vectors, centre, self.inner.sides)
 
-    def surface_through_best(self, most: int) -> KrigedSurface:
-        """Return the surface through the `most` best runs, centred on the best."""
-        chosen = np.argsort(self.values, kind="stable")[:most]
-        return self._through(int(chosen[0]), chosen)
+    def surface_by_sensitivity(self, number: int, seen: Rows | None) -> KrigedSurface:
+        """Return the surface through the best runs seen, in the metric of the curves' response."""
+        chosen = self.best_of(_BEST, seen)
+        if number not in chosen:
+            chosen[-1] = number
+        vectors = np.array([self._vectors[i] for i in chosen])
+        points, sides = self.points[chosen], self.inner.sides
+        return surface_by_sensitivity(
+            points, vectors, self.points[number], sides, points[:_SENSITIVE]
+        )
+
+    def best_of(self, most: int, seen: Rows | None) -> Rows:
+        """Return the numbers of the `most` best runs seen, the best first."""
+        among = self._among(seen)
+        return among[np.argsort(np.array(self.values)[among], kind="stable")[:most]]
 
     def noise(self, number: int, reach: float) -> Noise:
         """Return the model's own noise around a run, by the runs within a few reaches."""
@@ -133,6 +147,5 @@ class Runs:
         near = np.argsort(distances, kind="stable")[:most]
         return self.points[near], np.array(self.values)[near]
 
-    def _through(self, number: int, chosen: Rows) -> KrigedSurface:
-        vectors = np.array([self._vectors[i] for i in chosen])
-        return KrigedSurface(self.points[chosen], vectors, self.points[number], self.inner.sides)
+    def _among(self, seen: Rows | None) -> Rows:
+        return np.arange(len(self.values)) if seen is None else seen

@@ -44,6 +44,10 @@ class InnerSearch(Protocol):
     is_smooth: ClassVar[bool]
 
     @property
+    def is_largest(self) -> bool:
+        """Whether it is a largest distance, with more local minima than a region can tell apart."""
+
+    @property
     def negligible(self) -> float:
         """Differences of the value below this do not count."""
 
@@ -74,9 +78,8 @@ class CurveSearch:
     ) -> None:
         self._objective, self._gain, self._show_activity = objective, gain, show_activity
         self._responses: Responses | None = None
-        self._minimised = (
-            largest_distances.minimised if objective.is_largest_distance else _minimised
-        )
+        self.is_largest = objective.is_largest_distance
+        self._minimised = largest_distances.minimised if self.is_largest else _minimised
 
     @property
     def negligible(self) -> float:

@@ -28,7 +28,7 @@ from ...curves.thinning import Rows
 from .quasi_newton import nonsmooth_descent
 from .surfaces import ChainRule
 
-__all__ = ["KrigedSurface", "lowest_value"]
+__all__ = ["KrigedSurface", "lowest_value", "surface_by_sensitivity"]
 
 _ROOT = math.sqrt(5.0)
 _LENGTH = 4.0  # of the kernel, in distances of the farthest run from the centre
@@ -37,6 +37,8 @@ _FEWEST = 4  # degrees of freedom required to estimate noise
 _EVIDENCE = 0.5  # and the gain in likelihood, its logarithm by coordinate and degree of freedom
 _UNIT = 0.2  # of a side of the box, from which on coordinates count by their logarithm
 _LARGEST = 100.0  # a transformed coordinate whose hyperbolic sine is still finite
+# The metric of sensitivity: its rounds, the least share of a direction, and the power of shares.
+_TIMES, _RIDGE, _POWER = 2, 1e-3, 0.25
 _PLACES = 3  # random places from which the minimum of a value is sought
 
 
@@ -49,17 +51,26 @@ class KrigedSurface:
 
     `noise` is the standard deviation of the model's noise, in sides of the bounding box, or in the
     units of the coordinates; 0 if the runs show no noise.
+
+    `metric`, a symmetric matrix of shape (k, k), stretches the directions of the cube in which
+    distances count more, and shortens the kernel to the distance of the farthest run.
     """
 
     def __init__(
-        self, points: Array, vectors: Array, centre: Array, sides: Array | None = None
+        self,
+        points: Array,
+        vectors: Array,
+        centre: Array,
+        sides: Array | None = None,
+        metric: Array | None = None,
     ) -> None:
         count, k = points.shape
-        away = points - centre
-        self._centre = centre
+        self._centre, self._length = centre, _LENGTH if metric is None else 1.0
+        self._metric = np.eye(k) if metric is None else metric
+        away = (points - centre) @ self._metric
         self._extent = float(_lengths(away).max()) or 1.0
         self._places = away / self._extent
-        kernel, _ = _kernel(_lengths(self._places[:, np.newaxis] - self._places))
+        kernel, _ = self._kernel(_lengths(self._places[:, np.newaxis] - self._places))
         trend = np.column_stack((np.ones(count), self._places))
         contrasts = _Contrasts(kernel, trend)
         nugget, deviation, likelihood = contrasts.nugget(vectors)
@@ -91,15 +102,14 @@ class KrigedSurface:
 
     def at(self, point: Array) -> Array:
         """Return the coordinates at a point, shape (m,), or at several, shape (points, m)."""
-        place = (point - self._centre) / self._extent
-        kernel, _ = _kernel(_lengths(place[..., np.newaxis, :] - self._places))
+        place = (point - self._centre) @ self._metric / self._extent
+        kernel, _ = self._kernel(_lengths(place[..., np.newaxis, :] - self._places))
         return self._restored(self._transformed(place, kernel))
 
     def with_slopes(self, point: Array) -> tuple[Array, Array]:
         """Return the coordinates at a point, and their slopes, shape (m, k)."""
-        vector, rates, by_distance, away = self._bent(point)
-        slopes = self._trend[1:] + (by_distance[:, np.newaxis] * away).T @ self._weights
-        return vector, (slopes if rates is None else slopes * rates).T / self._extent
+        vector, rates, slopes = self._with_slopes(point)
+        return vector, (slopes if rates is None else slopes * rates).T @ self._metric / self._extent
 
     def with_chain_rule(self, point: Array) -> tuple[Array, ChainRule]:
         """Return the coordinates at a point, and what turns a gradient by them into one by it."""
@@ -108,9 +118,17 @@ class KrigedSurface:
         def chain_rule(gradient: Array) -> Array:
             by_vector = gradient if rates is None else gradient * rates
             bent: Array = (by_distance * (self._weights @ by_vector)) @ away
-            return (self._trend[1:] @ by_vector + bent) / self._extent
+            return self._metric @ (self._trend[1:] @ by_vector + bent) / self._extent
 
         return vector, chain_rule
+
+    def sensitivity(self, points: Array) -> Array:
+        """Return how strongly the transformed coordinates respond to each direction, (k, k)."""
+        squares = np.zeros_like(self._metric)
+        for point in points:
+            slopes = self._with_slopes(point)[2]
+            squares += slopes @ slopes.T
+        return self._metric @ squares @ self._metric
 
     def of_places(self, places: Rows | None) -> KrigedSurface:
         """Return the surface of some of the coordinates; all if `places` is None."""
@@ -121,6 +139,22 @@ class KrigedSurface:
         if self._unit is not None:
             some._base, some._unit = self._base[places], self._unit[places]
         return some
+
+    def _with_slopes(self, point: Array) -> tuple[Array, Array | None, Array]:
+        """Return the coordinates, their slopes by transformed ones, and those of these."""
+        vector, rates, by_distance, away = self._bent(point)
+        slopes = self._trend[1:] + (by_distance[:, np.newaxis] * away).T @ self._weights
+        return vector, rates, slopes
+
+    def _kernel(self, distance: Array) -> tuple[Array, Array]:
+        """Return the kernel at distances, and its derivative divided by the distance."""
+        scaled = _ROOT / self._length * distance
+        decay = np.exp(-scaled)
+        linear = 1.0 + scaled
+        return (
+            (linear + scaled * scaled / 3.0) * decay,
+            -5.0 / (3.0 * self._length**2) * linear * decay,
+        )
 
     def _transformed(self, place: Array, kernel: Array) -> Array:
         vector: Array = self._trend[0] + place @ self._trend[1:] + kernel @ self._weights
@@ -134,12 +168,29 @@ class KrigedSurface:
 
     def _bent(self, point: Array) -> tuple[Array, Array | None, Array, Array]:
         """Return the coordinates, their slopes by transformed ones, and the kernel's parts."""
-        place = (point - self._centre) / self._extent
+        place = (point - self._centre) @ self._metric / self._extent
         away = place - self._places
-        kernel, by_distance = _kernel(_lengths(away))
+        kernel, by_distance = self._kernel(_lengths(away))
         vector = self._transformed(place, kernel)
         rates = None if self._unit is None else self._unit * np.cosh(vector)
         return self._restored(vector), rates, by_distance, away
+
+
+def surface_by_sensitivity(
+    points: Array, vectors: Array, centre: Array, sides: Array | None, best: Array
+) -> KrigedSurface:
+    """Return a surface whose distances follow how far the curves move, at the `best` points.
+
+    Good runs have nearly the same curve. They lie on a thin tube, long in directions to which the
+    curves hardly respond. The metric is a power of the mean of J^T J, where J are the slopes.
+    """
+    surface = KrigedSurface(points, vectors, centre, sides)
+    for _ in range(_TIMES):
+        squares = surface.sensitivity(best)
+        shares, axes = np.linalg.eigh(squares / (np.trace(squares) or 1.0))
+        metric = axes * (np.maximum(shares, 0.0) + _RIDGE) ** _POWER @ axes.T
+        surface = KrigedSurface(points, vectors, centre, sides, metric)
+    return surface
 
 
 class _Contrasts:
@@ -180,14 +231,6 @@ def _lengths(vectors: Array) -> Array:
     """Return the lengths of vectors along the last axis: norm's bits, without its checks."""
     lengths: Array = np.sqrt(np.add.reduce(vectors * vectors, axis=-1))
     return lengths
-
-
-def _kernel(distance: Array) -> tuple[Array, Array]:
-    """Return the kernel at distances, and its derivative divided by the distance."""
-    scaled = _ROOT / _LENGTH * distance
-    decay = np.exp(-scaled)
-    linear = 1.0 + scaled
-    return (linear + scaled * scaled / 3.0) * decay, -5.0 / (3.0 * _LENGTH**2) * linear * decay
 
 
 def lowest_value(

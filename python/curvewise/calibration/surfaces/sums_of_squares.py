@@ -75,6 +75,7 @@ class SumOfSquares:
     """Sums of squares of residuals, or of bent ones, as `inner_search.InnerSearch` has it."""
 
     is_smooth: ClassVar[bool] = True
+    is_largest: ClassVar[bool] = False
     sides = None
 
     def __init__(self, objective: Objective, bend: Bend | None) -> None:
