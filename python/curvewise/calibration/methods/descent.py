@@ -47,7 +47,8 @@ _SHORTER = 0.05  # sides of the region after a run that failed, of some of its a
 _MISLED = 5  # excess of failed over good steps that marks a surrogate of curves as misleading
 _IN_VAIN = 3  # steps that fail in a row, after which the minima of a largest distance have turns
 _HOPS_IN_VAIN = 20  # proposals of several clouds that fail in a row
-_REACHES = (0.4, 0.1, None, 0.025)  # restart distances from the best run; None is anywhere
+# Restart distances from the best run; None is anywhere.
+_REACHES, _REACHES_OF_SMOOTH = (0.4, 0.1, None, 0.025), (0.4, 0.1, 0.025)
 _OF_VALUE = 2e-3  # the least predicted reduction of a restart, as a fraction of the value
 # A start whose value is above the best by a larger part is far above it, and abandoned if it
 # predicts less than that part of the difference.
@@ -293,7 +294,7 @@ class Descent:
         before, centre = self.value, self.centre
         if self._runs.is_exhausted(centre):
             return False
-        for reach in _REACHES:
+        for reach in _REACHES_OF_SMOOTH if self._runs.inner.is_smooth else _REACHES:
             for _ in range(2):
                 if self._is_far():
                     return False

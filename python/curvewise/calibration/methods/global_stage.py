@@ -4,7 +4,8 @@ A local search ends in the nearest local minimum, and measures of curves have ma
 surrogate predicts them before the model is run. CMA-ES (`surfaces.evolution`) searches two
 surrogates: that of the runs around the best one, along the principal axes of the curves'
 sensitivity, and, with clouds of several widths, that of the best runs, whose metric is that
-sensitivity. The inner search polishes the result.
+sensitivity. Smooth objectives need neither that metric nor several clouds. The inner search
+polishes the result.
 
 Cost: 400 to 900 evaluations of the measure on predicted curves, and no run of the model.
 
@@ -27,6 +28,7 @@ __all__ = ["GlobalStage"]
 
 _LEAST = 0.03  # of the reach: the shortest principal axis
 _POLISHED = 0.05  # how far the inner search may move what CMA-ES finds
+_MOST = 100  # best runs in the surface of a smooth objective
 # Of clouds: the first begins at a given run, the others at one of the best FEW.
 _WIDTHS, _MEMBERS, _SETTLED = (0.05, 0.15, 0.3), 10, 1e-3
 
@@ -57,6 +59,21 @@ class GlobalStage:
         moves = evolved(function, np.full(centre.size, 0.5), self._random)
         found = np.clip(centre + axes @ (moves - 0.5), low, high)
         return self._promised(surface, number, found)
+
+    def promising(self) -> tuple[Array, float] | None:
+        """Return the lowest place of all and its predicted reduction.
+
+        Return None if a run exists at that place.
+        """
+        inner, best = self._runs.inner, self._runs.best
+        if not inner.is_smooth:
+            return self.anywhere(best, None)
+        surface = self._runs.surface_through_best(_MOST)
+        start = self._runs.points[int(self._random.choice(self._runs.best_of(FEW, None)))]
+        found = evolved(
+            lambda points: inner.values(surface, points, roughly=True), start, self._random
+        )
+        return self._promised(surface, best, found)
 
     def anywhere(self, number: int, seen: Rows | None) -> tuple[Array, float] | None:
         """Return the lowest place of several clouds, and its predicted reduction below a run.

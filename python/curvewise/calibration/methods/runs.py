@@ -112,9 +112,11 @@ class Runs:
         k = self._ledger.dimensions
         near = np.argsort(distances, kind="stable")[: max(_NEAREST, 3 * k + 3)]
         near = near[: max(2 * k + 1, int(np.sum(distances[near] <= within)))]
-        chosen, centre = among[near], self.points[number]
-        vectors = np.array([self._vectors[i] for i in chosen])
-        return KrigedSurface(self.points[chosen], vectors, centre, self.inner.sides)
+        return self._through(number, among[near])
+
+    def surface_through_best(self, most: int) -> KrigedSurface:
+        """Return the surface through the `most` best runs, centred on the best."""
+        return self._through(self.best, self.best_of(most, None))
 
     def surface_by_sensitivity(self, number: int, seen: Rows | None) -> KrigedSurface:
         """Return the surface through the best runs seen, in the metric of the curves' response."""
@@ -146,6 +148,10 @@ class Runs:
         distances = np.abs(self.points - self.points[number]).max(axis=1)
         near = np.argsort(distances, kind="stable")[:most]
         return self.points[near], np.array(self.values)[near]
+
+    def _through(self, number: int, chosen: Rows) -> KrigedSurface:
+        vectors = np.array([self._vectors[i] for i in chosen])
+        return KrigedSurface(self.points[chosen], vectors, self.points[number], self.inner.sides)
 
     def _among(self, seen: Rows | None) -> Rows:
         return np.arange(len(self.values)) if seen is None else seen
