@@ -62,6 +62,9 @@ LabelledCurves: TypeAlias = Mapping[Any, CurveLike] | Grouped | Indexed
 """Curves by their labels."""
 
 
+_NAMES: list[MeasureName] = sorted(info.name for info in MEASURES.values())
+
+
 def available_measures() -> list[MeasureName]:
     """Return the measures of :func:`cdist`, :func:`pdist` and :class:`Prepared`.
 
@@ -80,7 +83,7 @@ def available_measures() -> list[MeasureName]:
     >>> curvewise.available_measures()[:2]
     ['area', 'curve_length']
     """
-    return sorted(info.name for info in MEASURES.values())
+    return list(_NAMES)
 
 
 @overload
@@ -352,10 +355,12 @@ _OF_PYTHON = {
 }
 
 
-def of_compiled(measure: str, options: Mapping[str, Any]) -> dict[str, Any]:
+def of_compiled(measure: str, options: dict[str, Any]) -> dict[str, Any]:
     """Return the options without defaults of those that compiled measures do not have."""
     apart = _OF_PYTHON.get(measure, {})
-    if options.get("closed") and "closed" in apart:
+    if apart.keys().isdisjoint(options):
+        return options
+    if options.get("closed"):
         raise TypeError(
             f"{measure} has closed=True for one pair, in cdist and in pdist; for nearest curves, "
             f"sort the rows of cdist(queries, curves, {measure!r}, closed=True)"
@@ -367,7 +372,9 @@ def _is_called_by_pairs(measure: Measure, options: Mapping[str, Any]) -> bool:
     """Return whether pairs are called from Python."""
     if callable(measure) or callable(options.get("metric")):
         return True
-    apart = _OF_PYTHON.get(measure, {}) if isinstance(measure, str) else {}
+    if not options or not isinstance(measure, str):
+        return False
+    apart = _OF_PYTHON.get(measure, {})
     return any(bool(options.get(option, default)) != default for option, default in apart.items())
 
 
@@ -396,7 +403,7 @@ def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
     """Return the measure's name; explain measures and ground distances to who mixes them up."""
     if "workers" in options:  # of an Index or a Prepared; cdist and pdist have a parameter
         raise TypeError("workers is an option of the calls that compute; give it to them")
-    names = available_measures()
+    names = _NAMES
     metrics = get_args(Metric)
     if isinstance(measure, str) and measure in metrics:
         raise ValueError(
