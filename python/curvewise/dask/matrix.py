@@ -131,6 +131,7 @@ def cdist(
     mirrored = False
     if not callable(measure):
         name = pairwise._check_names(measure, options)
+        options = pairwise.of_compiled(name, options)
         mirrored = is_symmetric(name, options) and XB is None  # it checks the options too
         # A block cannot say where in the whole list a curve is.
         check_batch(rows, others, name, options)
@@ -207,6 +208,7 @@ def pdist(
     refuse_local_only(options)
     if not callable(measure):
         name = pairwise._check_names(measure, options)
+        options = pairwise.of_compiled(name, options)
         pairwise._check_symmetric(name, options)
         check_batch(curves, None, name, options)
     dtype = _checked_dtype(dtype)

@@ -83,6 +83,7 @@ def kneighbors(
     assert targets is not None
     refuse_local_only(options)
     name = pairwise._check_names(measure, options)
+    options = pairwise.of_compiled(name, options)
     check_batch(queries, targets, name, options)
     count = checked_count(n_neighbors, len(targets), "the curves")
     size = block_size(block, queries, targets)

@@ -362,8 +362,8 @@ def of_compiled(measure: str, options: dict[str, Any]) -> dict[str, Any]:
         return options
     if options.get("closed"):
         raise TypeError(
-            f"{measure} has closed=True for one pair, in cdist and in pdist; for nearest curves, "
-            f"sort the rows of cdist(queries, curves, {measure!r}, closed=True)"
+            f"{measure} has closed=True for one pair, in curvewise.cdist and curvewise.pdist; for "
+            f"nearest curves, sort the rows of cdist(queries, curves, {measure!r}, closed=True)"
         )
     return {o: v for o, v in options.items() if o not in apart or v is not apart[o]}
 

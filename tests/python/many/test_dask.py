@@ -99,6 +99,17 @@ def test_blocks_in_processes() -> None:
     assert np.array_equal(computed, curvewise.cdist(XA, XB, "frechet"))
 
 
+def test_options_of_single_pairs_may_have_their_defaults() -> None:
+    curves, defaults = walks(4), {"closed": False, "dependent": True}
+    lazy = curvewise.dask.cdist(curves, measure="dtw", **defaults)
+    assert np.array_equal(lazy.compute(**THREADS), curvewise.cdist(curves, measure="dtw"))
+    triangle = curvewise.dask.pdist(curves, "dtw", **defaults)
+    assert np.array_equal(triangle.compute(**THREADS), curvewise.pdist(curves, "dtw"))
+    curvewise.dask.kneighbors(curves, curves, 1, **defaults)
+    with pytest.raises(TypeError, match=r"^dtw has closed=True for one pair, in curvewise\.cdist "):
+        curvewise.dask.pdist(curves, "dtw", closed=True)
+
+
 def test_a_cutoff() -> None:
     curves = walks(9)
     cutoff = float(np.median(curvewise.pdist(curves)))

@@ -119,8 +119,8 @@ TYPES = {
         [GOOD], measure="frechet_continuous", prune=False
     ),
     **{
-        f"{name} has closed=True for one pair, in cdist and in pdist; for nearest curves, sort the "
-        f"rows of cdist(queries, curves, {name!r}, closed=True)": partial(
+        f"{name} has closed=True for one pair, in curvewise.cdist and curvewise.pdist; for nearest "
+        f"curves, sort the rows of cdist(queries, curves, {name!r}, closed=True)": partial(
             Index, [GOOD], name, closed=True
         )
         for name in ("dtw", "frechet", "frechet_continuous")
