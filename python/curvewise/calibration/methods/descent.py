@@ -316,7 +316,11 @@ class Descent:
     def _hops_anywhere(self, least: float) -> Part[bool]:
         """Run proposals until so many in a row fail; return whether one was better."""
         before, centre, failed = self.value, self.centre, 0
-        while failed < _HOPS_IN_VAIN and not self._is_far() and not self._runs.is_exhausted(centre):
+        if self._runs.is_exhausted(centre):
+            return False
+        while failed < _HOPS_IN_VAIN:
+            if self._is_far():
+                return before - self.value > least
             found = self._proposal(None)
             if found is None or found[1] <= max(least, _OF_VALUE * self.value):
                 break
