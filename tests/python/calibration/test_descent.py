@@ -40,13 +40,14 @@ class Scripted(Descent):
         *,
         unknown: int = 0,
         hops: int = 0,
-        is_largest: bool = False,
+        is_smooth: bool = True,
     ) -> None:
-        inner = SimpleNamespace(negligible=0.0, is_smooth=True, is_largest=is_largest)
+        inner = SimpleNamespace(negligible=0.0, is_smooth=is_smooth)
         runs: Any = SimpleNamespace(
             inner=inner,
             has_slopes=False,
             is_misled=False,
+            earlier=0,
             values=[10.0],
             points=np.zeros((1, 2)),
             noise=lambda number, reach: Noise(0.0, 0.0),
@@ -128,14 +129,12 @@ def test_a_search_that_hops_to_another_minimum_goes_on():
 @pytest.mark.parametrize(
     ("gains", "is_early"), [([-1.0] * 4, True), ([-1.0, -1.0, 1.0, -1.0, -1.0], False)]
 )
-def test_other_minima_of_a_largest_distance_have_their_turn_after_three_failed_steps(
-    gains, is_early
-):
-    largest, other = Scripted(gains, hops=9, is_largest=True), Scripted(gains, hops=9)
-    for search in (largest, other):
+def test_other_minima_near_kinks_have_their_turn_after_three_failed_steps(gains, is_early):
+    kinked, smooth = Scripted(gains, hops=9, is_smooth=False), Scripted(gains, hops=9)
+    for search in (kinked, smooth):
         finish_of(search)
-    assert largest.radii[:3] == other.radii[:3]
-    assert (largest.radii[3:5] != other.radii[3:5]) == is_early
+    assert kinked.radii[:3] == smooth.radii[:3]
+    assert (kinked.radii[3:5] != smooth.radii[3:5]) == is_early
 
 
 def test_steps_come_to_an_end():
@@ -224,6 +223,21 @@ def test_what_others_have_found_far_away_does_not_lead_an_independent_start(
         ledger.drive(part)
     first, second = np.array(alone.asked), np.array(beside.asked[known:])
     assert np.array_equal(first[:5], second[:5]) == (is_independent and not is_shared)
+
+
+@pytest.mark.parametrize(("parameters", "is_own"), [(1, True), (2, True), (3, False)])
+def test_starts_of_smooth_objectives_share_runs_unless_parameters_are_few(parameters, is_own):
+    """One parameter has many minima if it is a frequency, and runs are few."""
+    runs: Any = SimpleNamespace(
+        inner=SimpleNamespace(is_smooth=True),
+        points=np.array([[0.1] * parameters, [0.9] * parameters]),
+        earlier=0,
+    )
+    start = Descent(np.random.default_rng(0), RULES, runs, is_independent=True)
+    start._best = 0
+    seen = start._seen(0.5)
+    assert (seen is not None) == is_own
+    assert seen is None or seen.tolist() == [0]
 
 
 def test_runs_of_an_earlier_search_take_the_place_of_the_first_simplex():

@@ -235,15 +235,15 @@ class Listed:
     [
         ([5.0, 5.01, 5.02], 3, 3),  # they agree
         ([5.0, 6.0, 5.01, 5.02, 5.03, 5.02], 6, 4),  # four of five; one more where they promise
-        ([float(5 + i) for i in range(40)], 30, 1),  # the most
-        ([5.0] * 30, 30, 17),  # flat ground
+        ([float(5 + i) for i in range(50)], 40, 1),  # the most
+        ([5.0] * 40, 40, 22),  # flat ground
     ],
 )
 def test_starts_that_disagree_are_followed_by_others(
     values, count, alike, made, at_once, monkeypatch
 ):
     monkeypatch.setattr("curvewise.calibration.methods.multistart.Descent", Listed)
-    monkeypatch.setattr(GlobalStage, "anywhere", lambda *_: (np.full(2, 0.7), 1.0))
+    monkeypatch.setattr(GlobalStage, "lowest", lambda *_: (np.full(2, 0.7), 1.0))
     Listed.values, Listed.begun, Listed.made = list(values), [], made
     run = SimpleNamespace(failed=False, value=9.0, simulations=(np.zeros((2, 2)),))
     ledger: Any = SimpleNamespace(
@@ -282,7 +282,7 @@ class Slow(Descent):
 class Known:
     """An inner search for which only the values of runs count."""
 
-    negligible, sides, is_smooth, is_largest = 0.0, None, True, False
+    negligible, sides, is_smooth = 0.0, None, True
 
     def taken(self, run: Any) -> tuple[np.ndarray, float]:
         return np.zeros(1), run.value

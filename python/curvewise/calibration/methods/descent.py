@@ -3,9 +3,9 @@
 Each iteration minimises the surrogate within a trust region around the best run and runs the model
 at the minimiser. The radius follows the ratio of actual to predicted reduction. If the predicted
 reduction is negligible, geometry-improving steps run the model in directions with poor sampling. If
-there are none, the global stage proposes other minima. If it proposes none, the start has ended.
-For the largest of many distances it proposes after three failed steps, because minima are many. A
-start is abandoned if it is far above the best run and predicts only a small part of the difference.
+there are none, the global stage proposes other minima. If it proposes none, the start has ended. If
+the objective has kinks, which make local minima, it also proposes after three failed steps. A start
+is abandoned if it is far above the best run and predicts only a small part of the difference.
 If repeated steps do not achieve their predicted reduction, the start continues with a surrogate of
 the value (`lowest_value`).
 
@@ -42,13 +42,11 @@ Part: TypeAlias = Generator[Array, list[Evaluation], R]
 _FAR = 5.0  # how far the runs may be from which a surrogate is made, in regions of trust
 _FAIR, _AFTER_FAIR = 0.3, 0.7  # a ratio of reductions, and the region below it, in step lengths
 _AFTER_HOP = 0.15  # the region after a restart next to another minimum
-_FEW = 2  # up to this number of parameters, each independent start runs its own initial design
+_FEW = 2  # up to this number of parameters, independent starts use their own runs alone
 _SHORTER = 0.05  # sides of the region after a run that failed, of some of its axes
 _MISLED = 5  # excess of failed over good steps that marks a surrogate of curves as misleading
-_IN_VAIN = 3  # steps that fail in a row, after which the minima of a largest distance have turns
-_HOPS_IN_VAIN = 20  # proposals of several clouds that fail in a row
-# Restart distances from the best run; None is anywhere.
-_REACHES, _REACHES_OF_SMOOTH = (0.4, 0.1, None, 0.025), (0.4, 0.1, 0.025)
+_IN_VAIN = 3  # steps that fail in a row, after which the global stage has its turn
+_HOPS_IN_VAIN = 8  # proposals of the global stage that fail in a row
 _OF_VALUE = 2e-3  # the least predicted reduction of a restart, as a fraction of the value
 # A start whose value is above the best by a larger part is far above it, and abandoned if it
 # predicts less than that part of the difference.
@@ -82,8 +80,8 @@ def simplex_around(centre: Array, step: float, random: np.random.Generator) -> A
 class Descent:
     """The best run of one start, and the region around it in which surrogates are trusted.
 
-    The start is independent if its place does not depend on others. If the objective has kinks, its
-    surrogates do not use their runs either, unless all starts are shared.
+    The start is independent if its place does not depend on others. If the objective has kinks, or
+    few parameters, its surrogates do not use their runs either, unless all starts are shared.
     """
 
     def __init__(
@@ -99,12 +97,13 @@ class Descent:
         self._stage = GlobalStage(runs, random)
         self._is_independent = is_independent
         # The runs that it has made, and those of earlier searches; None if it uses all runs.
-        uses_all = is_shared or runs.inner.is_smooth or not is_independent
+        k = runs.points.shape[1]
+        uses_all = is_shared or (runs.inner.is_smooth and k > _FEW) or not is_independent
         self._own = None if uses_all else set(range(runs.earlier))
         self.made = 0  # runs
         self._best: int | None = None
         self._last = np.inf
-        self._sides = np.ones(runs.points.shape[1])  # of the region, in each direction
+        self._sides = np.ones(k)  # of the region, in each direction
         self._tried: set[tuple[float, ...]] = set()
         self._failed = 0  # steps, less those that were good
         self._in_vain = 0  # steps that have failed since the last one that did not
@@ -146,14 +145,14 @@ class Descent:
         return End(before, self.value, self.centre, finish, *own)
 
     def _descended(self) -> Part[Finish]:
-        rules = self._rules
+        rules, inner = self._rules, self._runs.inner
         radius = rules.first_radius
         for _ in range(rules.maxiter):
             candidate, promised = self._lowest(radius)
-            least = max(self._runs.inner.negligible, rules.gain * self.value)
+            least = max(inner.negligible, rules.gain * self.value)
             if self._is_behind(promised):
                 return Finish(False, "another start is far ahead")
-            if self._in_vain >= _IN_VAIN and self._roams:
+            if self._in_vain >= _IN_VAIN and not (inner.is_smooth or self._by_value):
                 self._in_vain = 0
                 if rules.is_abandoned and self._is_far():
                     return Finish(False, "another start is far ahead")
@@ -285,43 +284,20 @@ class Descent:
                     break
 
     def _hops(self, least: float) -> Part[bool]:
-        """Run the proposals of the global stage; return whether one is better."""
-        if self._roams:
-            return (yield from self._hops_anywhere(least))
-        if self._runs.has_slopes and self._runs.inner.is_smooth:
-            return False  # another start costs less
-        assert self._best is not None
-        before, centre = self.value, self.centre
-        if self._runs.is_exhausted(centre):
+        """Run proposals of the global stage until so many in a row fail; return whether any gained.
+
+        The stage has no turn if its surrogate misleads, or if another start costs less.
+        """
+        if self._by_value or (self._runs.has_slopes and self._runs.inner.is_smooth):
             return False
-        for reach in _REACHES_OF_SMOOTH if self._runs.inner.is_smooth else _REACHES:
-            for _ in range(2):
-                if self._is_far():
-                    return False
-                found = self._proposal(reach)
-                if found is None or found[1] <= max(least, _OF_VALUE * self.value):
-                    break
-                yield from self._run(found[0][np.newaxis])
-                self._sides = self._drawn_sides()
-                if before - self.value > least:
-                    return True
-        self._runs.exhausted.append(centre)
-        return False
-
-    @property
-    def _roams(self) -> bool:
-        """Whether minima are so many that proposals come from everywhere, and early."""
-        return self._runs.inner.is_largest and not self._runs.has_slopes
-
-    def _hops_anywhere(self, least: float) -> Part[bool]:
-        """Run proposals until so many in a row fail; return whether one was better."""
         before, centre, failed = self.value, self.centre, 0
         if self._runs.is_exhausted(centre):
             return False
         while failed < _HOPS_IN_VAIN:
             if self._is_far():
                 return before - self.value > least
-            found = self._proposal(None)
+            assert self._best is not None
+            found = self._stage.lowest(self._best, self._seen(_AFTER_HOP))
             if found is None or found[1] <= max(least, _OF_VALUE * self.value):
                 break
             value = self.value
@@ -329,16 +305,10 @@ class Descent:
             self._sides = self._drawn_sides()
             failed = 0 if value - self.value > POOR * found[1] else failed + 1
         if before - self.value > least:
+            self._failed = 0  # this surrogate does not mislead
             return True
         self._runs.exhausted.append(centre)
         return False
-
-    def _proposal(self, reach: float | None) -> tuple[Array, float] | None:
-        """Return what the global stage proposes within a reach, or anywhere."""
-        assert self._best is not None
-        if reach is None:
-            return self._stage.anywhere(self._best, self._seen(_AFTER_HOP))
-        return self._stage.lowest(self._best, reach * self._sides, self._seen(reach))
 
     def _is_far(self) -> bool:
         """Return whether another start is so far ahead that other minima are left to it."""

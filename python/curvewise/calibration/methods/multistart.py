@@ -99,7 +99,7 @@ class Multistart:
         if self._begun:
             rules = replace(rules, first_radius=min(1.0 / _QUARTERS, rules.first_radius))
         if self._begun >= self._starts and (self._begun - self._starts) % 2 and self._runs.values:
-            found = self._stage.promising()
+            found = self._stage.lowest(self._runs.best)
             if found is not None:
                 return self._descent(found[0], rules, is_independent=False)
         return self._descent(next(self._places), rules)

@@ -114,15 +114,16 @@ class Runs:
         near = near[: max(2 * k + 1, int(np.sum(distances[near] <= within)))]
         return self._through(number, among[near])
 
-    def surface_through_best(self, most: int) -> KrigedSurface:
-        """Return the surface through the `most` best runs, centred on the best."""
-        return self._through(self.best, self.best_of(most, None))
+    def surface_through_best(self, number: int, seen: Rows | None) -> KrigedSurface:
+        """Return the surface through the best runs seen, centred on one of them.
 
-    def surface_by_sensitivity(self, number: int, seen: Rows | None) -> KrigedSurface:
-        """Return the surface through the best runs seen, in the metric of the curves' response."""
+        If the objective has kinks, its metric is that of the curves' response.
+        """
         chosen = self.best_of(_BEST, seen)
         if number not in chosen:
             chosen[-1] = number
+        if self.inner.is_smooth:
+            return self._through(number, chosen)
         vectors = np.array([self._vectors[i] for i in chosen])
         points, sides = self.points[chosen], self.inner.sides
         return surface_by_sensitivity(

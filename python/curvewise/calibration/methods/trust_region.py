@@ -32,7 +32,7 @@ class SurrogateSearch(Method, name="", keeps_curves=True, needs_squares=False):
     first_range: ClassVar[float]  # the default of initial_range
 
     starts: int | None = None
-    most_starts: int = 30
+    most_starts: int = 40
     starts_at_once: int | None = None
     initial_range: float | None = None
     diff_step: float = 0.02
@@ -102,7 +102,7 @@ class TrustRegion(SurrogateSearch, name="trust-region", keeps_curves=True, needs
         Number of starts that must agree if no start is given: the middle of the bounds, and points
         spread evenly over them. The default is half the number of parameters, at least 3. If some
         starts have ended higher, one more must agree, and at least half of all.
-    most_starts : int, default 30
+    most_starts : int, default 40
         Maximum number of starts.
     starts_at_once : int, optional
         Number of starts that run in parallel. The default is one with one worker, and three with

@@ -44,10 +44,6 @@ class InnerSearch(Protocol):
     is_smooth: ClassVar[bool]
 
     @property
-    def is_largest(self) -> bool:
-        """Whether it is a largest distance, with more local minima than a region can tell apart."""
-
-    @property
     def negligible(self) -> float:
         """Differences of the value below this do not count."""
 
@@ -61,8 +57,8 @@ class InnerSearch(Protocol):
     def slopes(self, run: Evaluation, by_curve: list[Array]) -> Array | None:
         """Return the derivatives of a run's vector, shape (m, k), by those of its curves."""
 
-    def values(self, surface: Surface, points: Array, *, roughly: bool = False) -> Array:
-        """Return what a surrogate predicts at points, shape (points,), or about that for less."""
+    def values(self, surface: Surface, points: Array) -> Array:
+        """Return what a surrogate predicts at points, shape (points,)."""
 
     def lowest(self, surface: Surface, start: Array, low: Array, high: Array) -> Array:
         """Return a local minimum in a box, from a start in it, never above the start."""
@@ -78,8 +74,8 @@ class CurveSearch:
     ) -> None:
         self._objective, self._gain, self._show_activity = objective, gain, show_activity
         self._responses: Responses | None = None
-        self.is_largest = objective.is_largest_distance
-        self._minimised = largest_distances.minimised if self.is_largest else _minimised
+        is_largest = objective.is_largest_distance
+        self._minimised = largest_distances.minimised if is_largest else _minimised
 
     @property
     def negligible(self) -> float:
@@ -105,10 +101,9 @@ class CurveSearch:
         assert self._responses is not None
         return self._responses.slopes(by_curve)
 
-    def values(self, surface: Surface, points: Array, *, roughly: bool = False) -> Array:
-        """Return the measure of predicted curves, or of some of their points."""
-        predicted = (self._thinned if roughly else None) or self._exact
-        return predicted.values(predicted.seen(surface), points)
+    def values(self, surface: Surface, points: Array) -> Array:
+        """Return the measure of predicted curves."""
+        return self._exact.values(surface, points)
 
     def lowest(self, surface: Surface, start: Array, low: Array, high: Array) -> Array:
         """Return a local minimum, on thinned curves first where there are any."""

@@ -75,7 +75,6 @@ class SumOfSquares:
     """Sums of squares of residuals, or of bent ones, as `inner_search.InnerSearch` has it."""
 
     is_smooth: ClassVar[bool] = True
-    is_largest: ClassVar[bool] = False
     sides = None
 
     def __init__(self, objective: Objective, bend: Bend | None) -> None:
@@ -97,7 +96,7 @@ class SumOfSquares:
         """Return the derivatives of the residuals, along the slopes of the curves."""
         return self._objective.residual_slopes(run.simulations, by_curve)
 
-    def values(self, surface: Surface, points: Array, *, roughly: bool = False) -> Array:
+    def values(self, surface: Surface, points: Array) -> Array:
         """Return the sums of predicted residuals."""
         return self._sums(surface.at(points))
 
