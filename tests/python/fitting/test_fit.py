@@ -170,9 +170,9 @@ def test_where_wider_bounds_would_never_do_it_is_said(monkeypatch) -> None:
 
 
 def test_a_limit_of_runs_is_one_for_the_searches_in_all_bounds() -> None:
-    fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=700, progress=False)
+    fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=500, progress=False)
     assert fit.beyond.sides == {"E": "upper"}
-    assert fit.found.evaluations == fit.runs == fit.found.runs == fit.beyond.runs == 700
+    assert fit.found.evaluations == fit.runs == fit.found.runs == fit.beyond.runs == 500
     assert f"; {fit.runs} runs in all" in str(fit)
 
 
@@ -184,16 +184,16 @@ def test_a_fit_in_wider_bounds_has_the_evaluations_of_all_searches(monkeypatch) 
         return searches[-1]
 
     monkeypatch.setattr("curvewise.fitting.material_fit.identify", recorded)
-    fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=700, progress=False)
+    fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=500, progress=False)
     found = fit.found
     assert len(searches) > 2
     for name in ("E", "value", "failed"):
         whole = np.concatenate([one.history[name] for one in searches])
         np.testing.assert_array_equal(found.history[name], whole)
-    assert found.history["evaluation"].tolist() == list(range(1, 701))
+    assert found.history["evaluation"].tolist() == list(range(1, 501))
     assert found.value == found.history["value"].min()
     record = found.record()
-    assert [one.number for one in record.evaluations] == list(range(1, 701))
+    assert [one.number for one in record.evaluations] == list(range(1, 501))
     assert record.evaluations[-1].value == searches[-1].history["value"][-1]
 
 
