@@ -137,6 +137,64 @@ def test_other_minima_near_kinks_have_their_turn_after_three_failed_steps(gains,
     assert (kinked.radii[3:5] != smooth.radii[3:5]) == is_early
 
 
+def test_no_other_minima_of_curves_have_a_turn_where_their_surrogate_misleads():
+    misled, smooth = (Scripted([-1.0] * 4, hops=9, is_smooth=smooth) for smooth in (False, True))
+    misled._by_value = True
+    for search in (misled, smooth):
+        finish_of(search)
+    assert misled.radii == smooth.radii
+
+
+class Hopping(Scripted):
+    """A start whose global stage predicts a gain of 1 each time, as long as gains are listed."""
+
+    _hops = Descent._hops
+
+    def __init__(self, gains: Sequence[float]) -> None:
+        super().__init__(gains)
+        self.value, self.made_hops = 100.0, 0  # type: ignore[misc]
+        self._runs.values = [100.0]
+        self._runs.is_exhausted = lambda place: False
+        self._runs.exhausted = []
+        proposal = (np.zeros(2), 1.0)
+        self._stage: Any = SimpleNamespace(lowest=lambda *_: proposal if self.gains else None)
+
+    def _run(self, points: Any) -> Part[None]:
+        yield from ()
+        self.made_hops += 1
+        self.value -= max(0.0, self.gains.pop(0))  # type: ignore[misc]
+        self._runs.values = [self.value]
+
+
+@pytest.mark.parametrize(
+    ("gains", "made", "has_gained"),
+    [
+        ([0.0] * 99, 8, False),
+        ([0.0] * 7 + [1.0] + [0.0] * 99, 16, True),
+        ([0.5, 0.0, 0.5], 3, True),  # then nothing is proposed
+        ([], 0, False),
+    ],
+)
+def test_proposals_are_run_until_eight_in_a_row_fail(gains, made, has_gained):
+    """A gain shows that the surrogate does not mislead; without one, the place is exhausted."""
+    search = Hopping(gains)
+    search._failed = 4
+    with pytest.raises(StopIteration) as end:
+        next(search._hops(0.01))
+    assert end.value.value == has_gained
+    assert search.made_hops == made
+    assert search._failed == (0 if has_gained else 4)
+    assert len(search._runs.exhausted) == (0 if has_gained else 1)
+
+
+def test_no_proposal_is_run_where_the_surrogate_misleads():
+    search = Hopping([1.0] * 9)
+    search._by_value = True
+    with pytest.raises(StopIteration) as end:
+        next(search._hops(0.01))
+    assert (end.value.value, search.made_hops) == (False, 0)
+
+
 def test_steps_come_to_an_end():
     assert finish_of(Scripted([1.0] * 99)) == (False, "50 steps")
 

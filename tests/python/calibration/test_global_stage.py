@@ -102,6 +102,19 @@ def test_hops_go_down_from_minimum_to_minimum(k):
     assert before < 0.02 * first
 
 
+@pytest.mark.parametrize("measure", ["frechet", "dtw"])
+def test_the_surface_of_the_best_runs_passes_through_the_run_that_hops_begin_at(
+    measure, monkeypatch
+):
+    """Which may be higher than so many others."""
+    monkeypatch.setattr("curvewise.calibration.methods.runs._BEST", 5)
+    runs, _ = stage(RUNS, measure)
+    worst = int(np.argmax(runs.values))
+    place = runs.points[worst]
+    surface = runs.surface_through_best(worst, None)
+    np.testing.assert_allclose(surface.at(place), simulated(place[0]).ravel(), atol=1e-5)
+
+
 def test_a_value_alone_leads_down():
     random = np.random.default_rng(0)
     points = np.vstack((np.full(2, 0.5), random.random((14, 2))))
